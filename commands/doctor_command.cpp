@@ -18,6 +18,8 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "commands/commands.h"
+#include "commands/doctor_journal.h"
+#include "commands/findings.h"
 #include "common/ask/request_client.h"
 #include "common/base/counted.h"
 #include "common/base/dates.h"
@@ -28,6 +30,7 @@
 #include "common/config/scene.h"
 #include "common/net/clock.h"
 #include "common/wall/wall.h"
+#include "common/wire/wanted_show.h"
 #include "master/supervisor/preflight.h"
 
 namespace aquarama {
@@ -41,48 +44,6 @@ struct DoctorOptions {
     std::string rig = supervisor::kDefaultRig;
     std::string keyFolder;  // empty: the user's
     bool json = false;
-};
-
-// Only Fail makes the exit status 1.
-enum class Verdict : std::uint8_t { Pass, Warn, Fail };
-
-// The finding of one check, and what to do about it.
-struct Finding {
-    Verdict verdict = Verdict::Pass;
-    std::string subject, what, todo;
-};
-
-// All findings, in order.
-class Findings {
-  public:
-    void pass(std::string subject, std::string what) {
-        all_.push_back({Verdict::Pass, std::move(subject), std::move(what), {}});
-    }
-    // Adds a finding: Pass where `isGood`, else `otherwise` with the advice `todo`.
-    void judge(
-        bool isGood, Verdict otherwise, std::string subject, std::string what, std::string todo) {
-        if (isGood) return pass(std::move(subject), std::move(what));
-        all_.push_back({otherwise, std::move(subject), std::move(what), std::move(todo)});
-    }
-    void fail(std::string subject, std::string problem) {
-        all_.push_back({Verdict::Fail, std::move(subject), std::move(problem), {}});
-    }
-    // Adds a finding: Pass with the text that `check()` returns, or Fail with the Error that it
-    // throws.
-    template <class Check>
-    bool attempt(const std::string& subject, Check check) {
-        try {
-            pass(subject, check());
-            return true;
-        } catch (const Error& problem) {
-            fail(subject, problem.what());
-            return false;
-        }
-    }
-    [[nodiscard]] const std::vector<Finding>& all() const { return all_; }
-
-  private:
-    std::vector<Finding> all_;
 };
 
 // 2^30 bytes, for repertoires, keys and logs; here and on the machines of nodes.
@@ -267,6 +228,7 @@ void lookAtMachine(Findings& findings, const DoctorOptions& options, const confi
                    "repertoires, keys and logs need a gigabyte: make room");
     const bool isAlone = std::ranges::all_of(
         rig.channels, [](const config::Channel& channel) { return channel.machine.empty(); });
+    lookAtJournal(findings, wire::journalOf(options.rig));
     lookAtClock(findings, isAlone);
     lookAtCertificates(findings, options.rig);
     if (!config::needsKeys(rig)) return findings.pass("keys", "none are needed on one machine");
@@ -430,6 +392,7 @@ bool lookAtShow(Findings& findings, const DoctorOptions& options, const config::
                               status.frame_p99_ms(),
                               status.skew_median_ms(),
                               status.skew_p99_ms()));
+    if (status.has_journal()) lookAtJournal(findings, status.journal());
     for (const v1::NodeStatus& node : status.nodes()) lookAtNode(findings, rig, node);
     return true;
 }

@@ -101,6 +101,9 @@ void inspectRecording(const std::string& path) {
                                  toHex(digestOf(species.repertoire)).substr(0, 12),
                                  species.repertoire.size());
     std::cout << fmt::format("inputs       {}\n", recording.inputs.size());
+    if (recording.moment && recording.moment->lateInputs > 0)
+        std::cout << fmt::format("             {} took effect before the disk had them\n",
+                                 recording.moment->lateInputs);
     for (std::size_t i = 0; i < std::min(recording.inputs.size(), kMostInputsShown); ++i)
         std::cout << fmt::format(
             "  tick {:>8}  {}\n", recording.inputs[i].tick.value, wordsFor(recording.inputs[i]));

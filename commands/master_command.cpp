@@ -18,6 +18,7 @@
 #include <sys/stat.h>
 
 #include "commands/commands.h"
+#include "common/base/amounts.h"
 #include "common/base/digest.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
@@ -240,6 +241,11 @@ simulation::AssetChoice choiceOf(const config::Rig& rig, const supervisor::ShowO
     return choice;
 }
 
+// Of a show that keeps no journal because of its kind.
+std::shared_ptr<const conductor::JournalReport> noJournal(const std::string& why) {
+    return std::make_shared<conductor::JournalReport>(v1::JournalStatus::NOT_KEPT, why);
+}
+
 // Shows a new world and records it.
 void showRecorded(const config::Rig& rig,
                   const MasterOptions& options,
@@ -247,6 +253,7 @@ void showRecorded(const config::Rig& rig,
                   conductor::ConductorOptions conducting,
                   std::unique_ptr<net::MasterChannels> channels) {
     conducting.whyOneScene = "the show is recorded, and a recording has one scene";
+    conducting.journal = noJournal("the show is recorded to " + options.show.recordPath);
     simulation::LivingWorld world(simulation::worldOptionsOf(assets));
     simulation::RecordingFile file(options.show.recordPath, assets.bytes);
     {
@@ -256,35 +263,49 @@ void showRecorded(const config::Rig& rig,
     file.close();
 }
 
+// Where the worlds of a show are journalled, as long as the lock is held; or why they are not.
+struct JournalPlace {
+    fs::path folder;
+    std::shared_ptr<journal::FolderLock> lock;
+    std::shared_ptr<const conductor::JournalReport> absence;  // null: they are
+};
+
 // A world of a scene, in its journal where there is one. `made` is within `simulation`.
 struct MadeWorld {
     std::unique_ptr<conductor::Simulation> simulation;
     const simulation::LivingWorld* made = nullptr;
+    std::shared_ptr<const conductor::JournalReport> journal;
 };
 MadeWorld makeWorld(const simulation::Assets& assets,
-                    const fs::path& folder,
+                    const JournalPlace& place,
                     journal::TimeAway away) {
-    if (folder.empty()) {
+    if (place.absence) {
         auto world = std::make_unique<simulation::LivingWorld>(simulation::worldOptionsOf(assets));
         const simulation::LivingWorld* const made = world.get();
-        return {std::move(world), made};
+        return {std::move(world), made, place.absence};
     }
-    auto world = journal::makeJournalled(folder, assets, away);
+    auto world = journal::makeJournalled(place.folder, assets, away);
     const simulation::LivingWorld* const made = &world->living();
-    return {std::move(world), made};
+    auto report = world->journal().report();
+    return {std::move(world), made, std::move(report)};
 }
 
-// Holds the folder of the show's journal. Null where another show of the rig holds it.
-std::unique_ptr<journal::FolderLock> lockJournal(const fs::path& folder) {
+// A show in lockstep keeps no journal, nor does one where another show of the rig holds the folder.
+JournalPlace placeOfJournal(const MasterOptions& options) {
+    if (options.lockstep) return {{}, {}, noJournal("the show is in lockstep")};
+    const fs::path folder = wire::journalOf(options.show.rigPath);
     try {
-        return std::make_unique<journal::FolderLock>(folder);
+        return {folder, std::make_shared<journal::FolderLock>(folder), {}};
     } catch (const Error& problem) {
         logWarning("{}; this one keeps none", problem.what());
-        return nullptr;
+        return {
+            {},
+            {},
+            std::make_shared<conductor::JournalReport>(v1::JournalStatus::REFUSED, problem.what())};
     }
 }
 
-// Shows a new world, or the one of the show's journal. A show in lockstep keeps no journal.
+// Shows a new world, or the one of the show's journal.
 void showNew(const config::Rig& rig,
              const MasterOptions& options,
              std::unique_ptr<net::MasterChannels> channels) {
@@ -300,22 +321,22 @@ void showNew(const config::Rig& rig,
         preparation.reset();
         return showRecorded(rig, options, assets, std::move(conducting), std::move(channels));
     }
-    const fs::path folder = wire::journalOf(options.show.rigPath);
-    const auto lock = options.lockstep ? nullptr : lockJournal(folder);
-    const fs::path journalFolder = lock ? folder : fs::path{};
+    const JournalPlace place = placeOfJournal(options);
     using journal::TimeAway;
     const TimeAway away = conducting.wanted.freeze() ? TimeAway::LeftOut : TimeAway::MadeUpFor;
-    const MadeWorld world = makeWorld(assets, journalFolder, away);
+    const MadeWorld world = makeWorld(assets, place, away);
     preparation.reset();
-    conducting.looks.makeWorld =
-        [rig, journalFolder, show = options.show](const std::string& scene) {
-            simulation::Assets next =
-                simulation::readAssets(sceneFile(rig, show.rigPath, scene), choiceOf(rig, show));
-            MadeWorld made = makeWorld(next, journalFolder, TimeAway::LeftOut);
-            const auto traits = made.made->world().traits();
-            return conductor::NextWorld{
-                std::move(next.bytes), {traits.begin(), traits.end()}, std::move(made.simulation)};
-        };
+    conducting.journal = world.journal;
+    conducting.looks.makeWorld = [rig, place, show = options.show](const std::string& scene) {
+        simulation::Assets next =
+            simulation::readAssets(sceneFile(rig, show.rigPath, scene), choiceOf(rig, show));
+        MadeWorld made = makeWorld(next, place, TimeAway::LeftOut);
+        const auto traits = made.made->world().traits();
+        return conductor::NextWorld{std::move(next.bytes),
+                                    {traits.begin(), traits.end()},
+                                    std::move(made.simulation),
+                                    std::move(made.journal)};
+    };
     show(rig, conducting, {assets.bytes, *world.made, *world.simulation}, std::move(channels));
 }
 
@@ -330,10 +351,10 @@ void showAgain(const config::Rig& rig,
         logWarning("{}: {}", options.show.replayPath, doubt);
     const Tick from{options.show.replayFromTick};
     if (from > recording.lastTick())
-        throw Error(options.show.replayPath + ": ends after " +
-                    simulation::timeOf(recording.lastTick()) + "; begin --at an earlier time");
+        throw Error(options.show.replayPath + ": ends after " + timeOf(recording.lastTick()) +
+                    "; begin --at an earlier time");
     simulation::LivingWorld world(simulation::worldOptionsOf(recording.assets));
-    preparation->tell("going to " + simulation::timeOf(from));
+    preparation->tell("going to " + timeOf(from));
     conductor::Conductor* running = nullptr;
     const auto onEnd = [&] {
         if (!options.lockstep) running->stop();
@@ -342,6 +363,7 @@ void showAgain(const config::Rig& rig,
     preparation.reset();
     conductor::ConductorOptions conducting = conductorOptions(rig, options);
     conducting.whyOneScene = "a recording is shown, and has one scene";
+    conducting.journal = noJournal("a recording is shown");
     // In lockstep the world runs ahead of the frames, so the frames are counted instead.
     if (options.lockstep) {
         const std::uint64_t frames = recording.lastTick().value + 1 - from.value;

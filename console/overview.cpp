@@ -7,6 +7,8 @@
 #include <google/protobuf/util/json_util.h>
 #include <spdlog/fmt/fmt.h>
 
+#include "common/base/counted.h"
+#include "common/wire/journal_text.h"
 #include "common/wire/wanted_show.h"
 
 namespace aquarama::console {
@@ -92,6 +94,8 @@ std::vector<Fault> faultsOf(const browser::Wall& wall, const std::string& build,
         if (!report.build().empty() && report.build() != build)
             faults.push_back({name + " build", name + " is of another build", kOutOfStep});
     }
+    if (std::string problem = wire::journalProblem(wall.status().journal()); !problem.empty())
+        faults.push_back({"journal", std::move(problem), 0});
     return faults;
 }
 
@@ -179,7 +183,24 @@ std::vector<std::pair<std::string, std::string>> ProjectorBook::update(
     return lines;
 }
 
-// Another run of the master is one line, not ten.
+namespace {
+
+// What an operator would say of the journal.
+std::vector<std::string> changesOfJournal(const v1::JournalStatus& before,
+                                          const v1::JournalStatus& after) {
+    std::vector<std::string> lines;
+    const bool isOne = before.went_on_tick() == after.went_on_tick();
+    if (std::string wentOn = wire::wentOnText(after); !isOne && !wentOn.empty())
+        lines.push_back(std::move(wentOn));
+    if (after.late_spells() > (isOne ? before.late_spells() : 0))
+        lines.push_back("what visitors do takes effect before the journal's disk has it: " +
+                        counted(after.late_inputs(), "input") + " so far");
+    return lines;
+}
+
+}  // namespace
+
+// Another run of the master is a line or two, not ten.
 std::vector<std::string> changesOf(const browser::Wall& before, const browser::Wall& after) {
     std::vector<std::string> lines;
     const auto note = [&](bool hasChanged, std::string line) {
@@ -187,7 +208,11 @@ std::vector<std::string> changesOf(const browser::Wall& before, const browser::W
     };
     const auto was = wire::readShow(before.status().show()).value_or(wire::Show{});
     const auto is = wire::readShow(after.status().show()).value_or(wire::Show{});
-    if (before.run() != after.run()) return {"the show has begun: scene " + is.scene};
+    if (before.run() != after.run()) {
+        lines = changesOfJournal({}, after.status().journal());
+        lines.insert(lines.begin(), "the show has begun: scene " + is.scene);
+        return lines;
+    }
     note(was.black != is.black, is.black ? "the wall is black" : "light again");
     note(was.frozen != is.frozen, is.frozen ? "frozen" : "the world moves again");
     note(was.scene != is.scene, "scene " + is.scene);
@@ -208,6 +233,8 @@ std::vector<std::string> changesOf(const browser::Wall& before, const browser::W
     for (int i = 0; i < std::min(nodesBefore.size(), nodes.size()); ++i)
         note(nodesBefore[i].condition() != nodes[i].condition(),
              "node " + nodes[i].name() + " is " + wire::wordFor(nodes[i].condition()));
+    for (std::string& line : changesOfJournal(before.status().journal(), after.status().journal()))
+        lines.push_back(std::move(line));
     return lines;
 }
 

@@ -322,7 +322,8 @@ class Reader {
         return {tickIn(moment.has_tick(), moment.tick(), lastTick_),
                 moment.clock_ns(),
                 moment.boot(),
-                moment.unix_s()};
+                moment.unix_s(),
+                moment.late_inputs()};
     }
 
     [[nodiscard]] bool nothingHappened() const {
@@ -528,6 +529,7 @@ Packet entryOf(const RecordedMoment& moment) {
     entry.mutable_moment()->set_clock_ns(moment.clockNs);
     entry.mutable_moment()->set_boot(moment.boot);
     entry.mutable_moment()->set_unix_s(moment.unixSeconds);
+    if (moment.lateInputs > 0) entry.mutable_moment()->set_late_inputs(moment.lateInputs);
     return delimited(entry);
 }
 

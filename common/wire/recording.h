@@ -122,6 +122,8 @@ struct RecordedMoment {
     std::uint64_t clockNs = 0;  // of the machine's CLOCK_BOOTTIME
     std::string boot;           // names its start
     std::uint64_t unixSeconds = 0;
+    // Of the file so far: they took effect before the disk had them.
+    std::uint64_t lateInputs = 0;
 };
 
 // A show as it was read from a file.

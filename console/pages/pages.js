@@ -5,8 +5,9 @@ import {calibrationPage} from '/calibration.js';
 import {drawingsButton, drawingsPage, hasDrawings, touchWall, touchedPanel} from '/drawings.js';
 import {nodesPage} from '/nodes.js';
 import {schedulePage} from '/schedule.js';
-import {DAYS, QUALITIES, button, channelsOf, chooser, conditionOf, dateTime, dayOf, filter, holdButton, ms, namesOf,
-  patternChooser, patternOf, percentOf, qualityOf, slider, state, t, time, views, wholeWall, word} from '/widgets.js';
+import {DAYS, QUALITIES, button, channelsOf, chooser, conditionOf, dateTime, dayOf, durationOf, filter, holdButton,
+  journalOf, ms, namesOf, patternChooser, patternOf, percentOf, qualityOf, sizeOf, slider, state, t, time, timeOfTick,
+  views, wholeWall, word} from '/widgets.js';
 
 // --- the wall
 
@@ -80,6 +81,19 @@ function helmPanel(link) {
     ${helm.taken ? pad(link) : nothing}</section>`;
 }
 
+// Of a JournalStatus (aquarama.proto), which a show without a journal has as well.
+function journal({status}) {
+  const told = status.journal;
+  if (!told) return '–';
+  const sizes = Number(told.folderBytes) ? t('wall.journalSizes', {age: durationOf(told.saveAgeS ?? 0),
+    file: sizeOf(told.fileBytes), folder: sizeOf(told.folderBytes), free: sizeOf(told.freeDiskBytes)}) : '';
+  const wentOn = Number(told.wentOnTick) ? t('wall.wentOn', {time: timeOfTick(told.wentOnTick),
+    away: durationOf(told.awayS ?? 0)}) : '';
+  const late = Number(told.lateInputs) ? t('wall.lateInputs', {n: told.lateInputs}) : '';
+  return html`${state(journalOf(told))} ${told.reason || nothing}
+    ${[sizes, wentOn, late].filter(Boolean).map(text => html`<div class="note">${text}</div>`)}`;
+}
+
 function figures(link) {
   const {status, shown} = link;
   return html`<section class="panel figures" aria-labelledby="figures"><h2 id="figures">${t('wall.now')}</h2><dl>
@@ -90,6 +104,7 @@ function figures(link) {
     <dt>${t('wall.frame')}</dt><dd>${status.frame} · ${t('wall.tick')} ${status.tick}</dd>
     <dt>${t('wall.frameTime')}</dt><dd>${ms(status.frameMedianMs)} · 99 % ${ms(status.frameP99Ms)}</dd>
     <dt>${t('wall.skew')}</dt><dd>${ms(status.skewMedianMs, 2)} · 99 % ${ms(status.skewP99Ms, 2)}</dd>
+    <dt>${t('wall.journal')}</dt><dd>${journal(link)}</dd>
     <dt>${t('wall.nodes')}</dt><dd>${(status.nodes ?? []).map(node => html`<span
       class="whole-word">${node.name} ${state(conditionOf(node))}</span> `)}</dd></dl></section>`;
 }

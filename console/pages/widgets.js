@@ -63,6 +63,8 @@ export const patternOf = link => link.shown.pattern?.replace('PATTERN_', '').toL
 export const dayOf = link => (link.status.day ?? 'CLOCK').toLowerCase().replace('_', ' ');
 // The condition of a NodeStatus, as in SHAPES: NODE_IN_STEP is "in step".
 export const conditionOf = node => node.condition.replace('NODE_', '').toLowerCase().replace('_', ' ');
+// That of a JournalStatus: NOT_KEPT is "not kept".
+export const journalOf = journal => journal.condition.toLowerCase().replace('_', ' ');
 export const channelsOf = link => link.known.snapshot?.channels ?? [];
 export const namesOf = link => channelsOf(link).map(channel => channel.name);
 // What the page of the log shows; the nodes' page sets it too.
@@ -108,12 +110,27 @@ export const time = seconds => new Date(seconds * 1000).toLocaleTimeString(langu
 export const dateTime = seconds => new Date(seconds * 1000).toLocaleString(language());
 export const ms = (value, digits = 1) => `${(value ?? 0).toFixed(digits)} ms`;
 
+// Amounts as `aquarama status` has them: "3 min", "1.4 GB"; a tick as a time of the world: "1:02:03".
+export const durationOf = seconds => seconds < 120 ? `${seconds.toFixed(0)} s`
+  : seconds < 7200 ? `${(seconds / 60).toFixed(0)} min` : `${(seconds / 3600).toFixed(0)} h`;
+export const sizeOf = bytes => {
+  const unit = Math.min(4, Math.max(1, Math.floor(Math.log10(Math.max(1, bytes)) / 3)));
+  const amount = bytes / 1000 ** unit;
+  return `${amount.toFixed(unit > 2 && amount < 10 ? 1 : 0)} ${['', 'kB', 'MB', 'GB', 'TB'][unit]}`;
+};
+export const timeOfTick = tick => {
+  const seconds = Math.floor(tick / 60), two = number => String(number % 60).padStart(2, '0');
+  return `${Math.floor(seconds / 3600)}:${two(Math.floor(seconds / 60))}:${two(seconds)}`;
+};
+
 // A state as shape and word: [shape, class].
 const SHAPES = {'in step': ['●', 'good'], late: ['▲', 'warn'], preparing: ['◐', 'warn'], absent: ['✖', 'bad'],
                 pass: ['●', 'good'], warn: ['▲', 'warn'], fail: ['✖', 'bad'],
                 firing: ['✖', 'bad'], over: ['◌', 'warn'], acknowledged: ['✓', 'quiet'],
                 'in place': ['●', 'good'], moved: ['✖', 'bad'], 'not seen': ['▲', 'warn'], refuse: ['✖', 'bad'],
                 WAITING: ['◐', 'warn'], SWIMMING: ['●', 'good'], HOMELESS: ['▲', 'warn'], LEAVING: ['◌', 'quiet'],
+                written: ['●', 'good'], waiting: ['▲', 'warn'], paused: ['✖', 'bad'], 'not kept': ['·', 'quiet'],
+                refused: ['✖', 'bad'],
                 info: ['·', 'quiet'], warning: ['▲', 'warn'], error: ['✖', 'bad']};
 export const state = name => {
   const [shape, kind] = SHAPES[name] ?? ['?', 'quiet'];

@@ -142,8 +142,10 @@ ShowReport Conductor::run() {
         nameMissing(now);
         const v1::WantedShow& wanted = orders_.control().wanted();
         if (gauges_.count(
-                now, report_, visitors_.fish(), wanted.black(), roster_, presentation_.barrier()))
+                now, report_, visitors_.fish(), wanted.black(), roster_, presentation_.barrier())) {
             for (NodeSeat& seat : roster_.seats()) seat.logLines = 0;
+            if (options_.journal) gauges_.countJournal(options_.journal->status(now));
+        }
         const bool isStill = isLockstep() || wanted.freeze();
         const bool isAlive = watchdog_.isAlive(now, presentation_.newestTick(), isStill);
         if (isAlive && options_.service != nullptr) options_.service->alive(report_.frames);
@@ -463,6 +465,7 @@ v1::Envelope Conductor::status(net::Moment now) const {
     if (const auto version = drawings_.version()) reply.set_drawings_version(*version);
     reply.set_change(legible(orders_.control().waitingFor(), wire::kMostReasonBytes));
     gauges_.writeStatus(reply, report_, roster_, presentation_.barrier());
+    if (options_.journal) *reply.mutable_journal() = options_.journal->status(now);
     return message;
 }
 
@@ -476,6 +479,7 @@ void Conductor::changeShow(net::Moment now) {
             // The world before is large: it ends beside the frames.
             retiring_ = std::async(std::launch::async, [old = std::move(own_)] {});
             own_ = std::move(world->simulation);
+            options_.journal = std::move(world->journal);
             simulation_ = own_.get();
             startSimulation(static_cast<std::uint32_t>(world->school.size()));
         }

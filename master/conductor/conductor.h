@@ -20,6 +20,7 @@
 #include "common/wire/parts.h"
 #include "master/conductor/drawings.h"
 #include "master/conductor/gauges.h"
+#include "master/conductor/journal_report.h"
 #include "master/conductor/looks.h"
 #include "master/conductor/orders.h"
 #include "master/conductor/presentation.h"
@@ -46,8 +47,9 @@ struct ConductorOptions {
     std::filesystem::path traceDirectory;  // for master.csv; empty: none
     std::string guestsKey;          // public key of the guests' program; empty: a rig without keys
     std::filesystem::path hoursAt;  // hours of the hall, for scenes that follow it
-    LogFile* log = nullptr;         // of the whole show; null: none
-    machine::ServiceNotifier* service = nullptr;  // hears of every turn of the loop; null: nobody
+    std::shared_ptr<const JournalReport> journal;  // of the world; null: nothing is known of it
+    LogFile* log = nullptr;                        // of the whole show; null: none
+    machine::ServiceNotifier* service = nullptr;   // hears of every turn of the loop; null: nobody
     // Lockstep: silence of a node that ends the show.
     net::Duration patience = std::chrono::seconds(60);
 };

@@ -37,11 +37,12 @@ Gauges::Gauges(const Roster& roster, std::uint16_t port)
       fish_{metrics_.gauge("aquarama_fish", "Fish of the world")},
       bytes_{metrics_.counter("aquarama_state_bytes_total", "Bytes of states, once for all nodes")},
       refused_{metrics_.counter("aquarama_refused_packets_total", "Packets that were refused")},
-      black_{metrics_.gauge("aquarama_black", "1 where the wall is black because it was set so")} {
+      black_{metrics_.gauge("aquarama_black", "1 where the wall is black because it was set so")},
+      journal_{figuresOfJournal()} {
     for (const NodeSeat& seat : roster.seats()) nodes_.push_back(figuresOf(seat));
 }
 
-Gauges::NodeFigures Gauges::figuresOf(const NodeSeat& seat) {
+NodeFigures Gauges::figuresOf(const NodeSeat& seat) {
     net::Metrics& m = metrics_;
     const net::Labels node{{"node", seat.name}};
     return {
@@ -59,6 +60,19 @@ Gauges::NodeFigures Gauges::figuresOf(const NodeSeat& seat) {
         .celsius = m.gauge("aquarama_node_gpu_celsius",
                            "Temperature of its graphics card; 0 where none is told",
                            node)};
+}
+
+JournalFigures Gauges::figuresOfJournal() {
+    net::Metrics& m = metrics_;
+    return {
+        .written = m.gauge("aquarama_journal_written", "1 where the journal is written"),
+        .saveAge = m.gauge("aquarama_journal_save_age_seconds", "Age of its newest save"),
+        .file = m.gauge("aquarama_journal_file_bytes", "Bytes of the recording that grows"),
+        .folder = m.gauge("aquarama_journal_bytes", "Bytes of all its recordings and saves"),
+        .free = m.gauge("aquarama_journal_free_disk_bytes", "Free bytes of the disk that it is on"),
+        .pauses = m.gauge("aquarama_journal_pauses", "Times this world's journal paused"),
+        .late = m.gauge("aquarama_journal_late_inputs",
+                        "Inputs of this world that took effect before the disk had them")};
 }
 
 void Gauges::released(net::Moment now, net::Duration interval) {
@@ -110,6 +124,16 @@ bool Gauges::count(net::Moment now,
         node.celsius(static_cast<double>(seat.report->gpu_celsius()));
     }
     return true;
+}
+
+void Gauges::countJournal(const v1::JournalStatus& journal) const {
+    journal_.written(journal.condition() == v1::JournalStatus::WRITTEN ? 1 : 0);
+    journal_.saveAge(journal.save_age_s());
+    journal_.file(static_cast<double>(journal.file_bytes()));
+    journal_.folder(static_cast<double>(journal.folder_bytes()));
+    journal_.free(static_cast<double>(journal.free_disk_bytes()));
+    journal_.pauses(static_cast<double>(journal.pauses()));
+    journal_.late(static_cast<double>(journal.late_inputs()));
 }
 
 void Gauges::writeStatus(v1::StatusReply& reply,

@@ -23,6 +23,14 @@ struct ShowReport {
     std::uint64_t refusedPackets = 0;
 };
 
+// The series of one node, and those of the journal.
+struct NodeFigures {
+    net::Record condition, late, dropped, mismatches, roundTrip, drift, celsius;
+};
+struct JournalFigures {
+    net::Record written, saveAge, file, folder, free, pauses, late;
+};
+
 // Of the conductor's thread.
 class Gauges {
   public:
@@ -45,21 +53,22 @@ class Gauges {
                bool isBlack,
                const Roster& roster,
                const PresentBarrier& barrier);
-    // All of a status reply but pace, frame, show and change.
+    // The same of the journal; as often as count() has counted.
+    void countJournal(const v1::JournalStatus& journal) const;
+    // All of a status reply but pace, frame, show, change and journal.
     void writeStatus(v1::StatusReply& reply,
                      const ShowReport& report,
                      const Roster& roster,
                      const PresentBarrier& barrier) const;
 
   private:
-    struct NodeFigures {
-        net::Record condition, late, dropped, mismatches, roundTrip, drift, celsius;
-    };
     [[nodiscard]] NodeFigures figuresOf(const NodeSeat& seat);
+    [[nodiscard]] JournalFigures figuresOfJournal();
 
     net::Metrics metrics_;
     net::Record frameSeconds_, skewSeconds_, frames_, fish_, bytes_, refused_, black_;
     std::vector<NodeFigures> nodes_;
+    JournalFigures journal_;
     net::RecentTimes frameTimes_;
     net::RecentPeak framePeak_, skewPeak_;
     SkewMeter skew_;

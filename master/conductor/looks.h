@@ -21,6 +21,7 @@
 #include "common/net/blob.h"
 #include "common/wire/messages.h"
 #include "common/wire/recording.h"
+#include "master/conductor/journal_report.h"
 #include "master/conductor/roster.h"
 #include "master/conductor/sender.h"
 #include "master/conductor/show_control.h"
@@ -33,6 +34,7 @@ struct NextWorld {
     wire::AssetBundle assets;
     std::vector<motion::FishTraits> school;
     std::unique_ptr<Simulation> simulation;
+    std::shared_ptr<const JournalReport> journal = {};  // null: nothing is known of it
 };
 
 // Where looks come from.

@@ -7,6 +7,7 @@
 #include <glm/trigonometric.hpp>
 #include <spdlog/fmt/fmt.h>
 
+#include "common/wire/journal_text.h"
 #include "common/wire/wanted_show.h"
 
 namespace aquarama::conductor {
@@ -76,6 +77,8 @@ std::string statusText(const v1::StatusReply& status) {
                         status.skew_median_ms(),
                         status.skew_p99_ms());
     text += fmt::format("submarine     {}\n", submarineText(status));
+    if (status.has_journal())
+        text += fmt::format("journal       {}\n", wire::journalText(status.journal(), "   "));
     text += fmt::format("refused packets {}\n\n", status.refused_packets());
     text += fmt::format("{:<16} {:<10} {:>8} {:>8} {:>8}  {}\n",
                         "node",

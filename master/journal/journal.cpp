@@ -16,6 +16,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include "common/base/files.h"
 #include "common/base/log.h"
 #include "master/world/world_state.h"
 
@@ -58,6 +59,13 @@ bool makeOneWorld(const wire::AssetBundle& a, const wire::AssetBundle& b) {
            std::ranges::equal(a.cast, b.cast, isSame);
 }
 
+// An error of a file in a folder, for operators: the log has the path.
+std::string withoutPath(const std::string& error, const fs::path& folder) {
+    const std::size_t end = error.find(": ");
+    const bool hasPath = error.starts_with(folder.string()) && end != std::string::npos;
+    return hasPath ? "it " + error.substr(end + 2) : error;
+}
+
 fs::path savesOf(const fs::path& recording) {
     return fs::path(recording).replace_extension(kSaves);
 }
@@ -80,7 +88,7 @@ fs::path newRecordingIn(const fs::path& folder) {
 void removeOldIn(const fs::path& folder) {
     std::error_code none;
     const auto oldest = fs::file_time_type::clock::now() - std::chrono::seconds(kSecondsOfAFile);
-    for (const fs::path& path : filesIn(folder, kRecordings)) {
+    for (const fs::path& path : recordingsIn(folder)) {
         const auto written = fs::last_write_time(path, none);
         if (none || written >= oldest) continue;
         fs::remove(path, none);
@@ -92,8 +100,23 @@ void removeOldIn(const fs::path& folder) {
 
 }  // namespace
 
+std::vector<fs::path> recordingsIn(const fs::path& folder) {
+    return filesIn(folder, kRecordings);
+}
+
+std::uint64_t bytesIn(const fs::path& folder) {
+    std::uint64_t bytes = 0;
+    std::error_code problem, none;
+    for (fs::recursive_directory_iterator at(folder, problem), end; !problem && at != end;
+         at.increment(problem)) {
+        const std::uintmax_t size = at->is_regular_file(none) ? at->file_size(none) : 0;
+        if (!none) bytes += size;
+    }
+    return bytes;
+}
+
 std::optional<LastWorld> lastWorldIn(const fs::path& folder, const wire::AssetBundle& assets) {
-    std::vector<fs::path> recordings = filesIn(folder, kRecordings);
+    std::vector<fs::path> recordings = recordingsIn(folder);
     std::ranges::reverse(recordings);
     int shortLives = 0;
     std::optional<LastWorld> found;
@@ -135,7 +158,9 @@ FolderLock::~FolderLock() {
 }
 
 Journal::Journal(fs::path folder, const wire::AssetBundle& assets, const world::World& world)
-    : folder_{std::move(folder)}, beginning_{wire::beginningOf(assets, wire::Repertoires::Named)} {
+    : folder_{std::move(folder)},
+      report_{std::make_shared<conductor::JournalReport>()},
+      beginning_{wire::beginningOf(assets, wire::Repertoires::Named)} {
     world.save(state_);
     isSaving_ = true;
     thread_.emplace("journal", kMostWaitingBytes, [this] { sync(); });
@@ -194,10 +219,12 @@ void Journal::begin(const std::vector<std::byte>& state) {
     file_.append(wire::entryOf(state_.tick, state));
     firstTick_ = state_.tick;
     pauses_ = false;
+    report_->goesOn();
 }
 
 void Journal::append(const wire::Packet& entry) {
     if (pauses_) return;
+    const conductor::JournalReport::DiskUse use(*report_);
     try {
         file_.append(entry);
     } catch (const Error& problem) {
@@ -207,6 +234,7 @@ void Journal::append(const wire::Packet& entry) {
 
 void Journal::sync() {
     if (pauses_ || appended_ == onDisk_) return;
+    const conductor::JournalReport::DiskUse use(*report_);
     if (file_.sync())
         onDisk_ = appended_;
     else
@@ -215,18 +243,28 @@ void Journal::sync() {
 
 void Journal::pause(const std::string& why) {
     if (pauses_.exchange(true)) return;
+    report_->paused(withoutPath(why, folder_));
     logError("the journal of the show pauses: {}; the show goes on", why);
 }
 
 void Journal::keepState() {
     const std::vector<std::byte> state = world::encodeState(state_);
     stateBytes_ = state.size();
+    const conductor::JournalReport::DiskUse use(*report_);
     try {
         recordState(state);
         if (!pauses_) keepFile(state);
     } catch (const Error& problem) {
         pause(problem.what());
     }
+    measure();
+}
+
+void Journal::measure() {
+    std::error_code none;
+    const std::uintmax_t size = fs::file_size(path_, none);
+    report_->measured(
+        {.file = none ? 0 : size, .folder = bytesIn(folder_), .free = freeBytesAt(folder_)});
 }
 
 // What pauses, or is full, begins anew at the next minute.
@@ -247,6 +285,7 @@ void Journal::keepFile(const std::vector<std::byte>& state) {
     file.write(state);
     file.finish();
     saves_.push_back(savePathOf(state_.tick));
+    report_->saved();
     std::error_code none;
     const std::size_t most = std::clamp(kBytesOfSaves / state.size(), std::size_t{2}, kMostSaves);
     while (saves_.size() > most) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "common/base/output_file.h"
 #include "common/base/units.h"
 #include "common/wire/recording.h"
+#include "master/conductor/journal_report.h"
 #include "master/world/world.h"
 
 namespace aquarama::journal {
@@ -42,6 +44,11 @@ struct LastWorld {
 // there a few times and never lived for five seconds. What cannot be read is a line in the log.
 [[nodiscard]] std::optional<LastWorld> lastWorldIn(const std::filesystem::path& folder,
                                                    const wire::AssetBundle& assets);
+
+// The recordings of a journal, the newest last.
+[[nodiscard]] std::vector<std::filesystem::path> recordingsIn(const std::filesystem::path& folder);
+// Of all files in a folder, also in folders of it.
+[[nodiscard]] std::uint64_t bytesIn(const std::filesystem::path& folder);
 
 // Held while a process writes journals to a folder.
 class FolderLock {
@@ -82,6 +89,10 @@ class Journal {
     void save(const world::World& world);
     // Returns when all that was appended is written. False: the journal pauses.
     bool flush();
+    // What operators are told of it.
+    [[nodiscard]] const std::shared_ptr<conductor::JournalReport>& report() const {
+        return report_;
+    }
 
   private:
     void put(wire::Packet entry, std::uint64_t number);
@@ -92,11 +103,13 @@ class Journal {
     void keepState();
     void recordState(const std::vector<std::byte>& state);
     void keepFile(const std::vector<std::byte>& state);
+    void measure();
     [[nodiscard]] std::uint64_t ticksBetweenSaves() const;
     void pause(const std::string& why);
     [[nodiscard]] std::filesystem::path savePathOf(Tick tick) const;
 
     std::filesystem::path folder_;
+    std::shared_ptr<conductor::JournalReport> report_;
     wire::Packet beginning_;   // of every file
     std::uint64_t added_ = 0;  // of the tick thread
     // Of the thread of jobs.

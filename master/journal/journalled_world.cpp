@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "common/base/amounts.h"
 #include "common/base/counted.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
@@ -36,11 +37,11 @@ wire::RecordedMoment momentAt(Tick tick) {
     static const std::string boot = bootOf();
     timespec now{};
     clock_gettime(CLOCK_BOOTTIME, &now);
-    return {tick,
-            static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000 +
-                static_cast<std::uint64_t>(now.tv_nsec),
-            boot,
-            static_cast<std::uint64_t>(std::time(nullptr))};
+    return {.tick = tick,
+            .clockNs = static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000 +
+                       static_cast<std::uint64_t>(now.tv_nsec),
+            .boot = boot,
+            .unixSeconds = static_cast<std::uint64_t>(std::time(nullptr))};
 }
 
 // Puts the world at the newest save that is one of it. Of those that are not, one is told: mostly
@@ -82,15 +83,25 @@ Tick lastKnown(const wire::Recording& recording, Tick restored) {
     return known;
 }
 
+// Since a moment, by the clock of this machine; by that of the calendar where the machine was
+// started anew. Zero where a clock has gone back.
+double secondsSince(const wire::RecordedMoment& then) {
+    const wire::RecordedMoment now = momentAt({});
+    if (now.boot == then.boot)
+        return now.clockNs < then.clockNs ? 0
+                                          : static_cast<double>(now.clockNs - then.clockNs) * 1e-9;
+    return now.unixSeconds < then.unixSeconds
+               ? 0
+               : static_cast<double>(now.unixSeconds - then.unixSeconds);
+}
+
 // The tick that is due now, by the clock.
 Tick dueNow(const wire::Recording& recording, Tick restored, TimeAway timeAway) {
     const Tick known = lastKnown(recording, restored);
     if (timeAway == TimeAway::LeftOut || !recording.moment) return known;
-    const wire::RecordedMoment now = momentAt({});
     const wire::RecordedMoment& then = *recording.moment;
-    if (now.boot != then.boot || now.clockNs < then.clockNs) return known;
-    const double seconds = static_cast<double>(now.clockNs - then.clockNs) * 1e-9;
-    const auto away = static_cast<std::uint64_t>(seconds * kTicksPerSecond);
+    if (then.boot != momentAt({}).boot) return known;
+    const auto away = static_cast<std::uint64_t>(secondsSince(then) * kTicksPerSecond);
     return away > kMostTicksAway ? known : std::max(known, Tick{then.tick.value + away});
 }
 
@@ -124,8 +135,8 @@ std::optional<std::vector<wire::RecordedInput>> goOn(simulation::LivingWorld& wo
     const Tick due = dueNow(last.recording, restored, timeAway);
     const auto next = advanceTo(world, due, begin + kMostTimeAway, {first, inputs.end()});
     logInfo("the world goes on at {} from its save at {}, with {}",
-            simulation::timeOf(world.tick()),
-            simulation::timeOf(restored),
+            timeOf(world.tick()),
+            timeOf(restored),
             counted(static_cast<std::uint64_t>(next - first), "input"));
     if (world.tick() < due)
         logWarning("the world is {} behind its clock and goes on from here",
@@ -165,7 +176,9 @@ void JournalledWorld::advance() {
 void JournalledWorld::noteNow() {
     const Tick tick = world_.tick();
     journal_->note(wire::entryOf(wire::RecordedHash{tick, world_.hash()}));
-    journal_->note(wire::entryOf(momentAt(tick)));
+    wire::RecordedMoment moment = momentAt(tick);
+    moment.lateInputs = lateInputs_;
+    journal_->note(wire::entryOf(moment));
 }
 
 void JournalledWorld::applyDue() {
@@ -177,8 +190,11 @@ void JournalledWorld::applyDue() {
 }
 
 void JournalledWorld::noteLate() {
+    ++lateInputs_;
     const Tick now = world_.tick();
-    if (lateAt_ && now.value < lateAt_->value + kTicksBetweenWarnings) return;
+    const bool isFirst = !lateAt_ || now.value >= lateAt_->value + kTicksBetweenWarnings;
+    journal_->report()->inputWasLate(isFirst);
+    if (!isFirst) return;
     lateAt_ = now;
     logWarning("what a visitor did took effect before the journal's disk had it");
 }
@@ -188,15 +204,18 @@ std::unique_ptr<JournalledWorld> makeJournalled(const std::filesystem::path& fol
                                                 TimeAway timeAway) {
     std::unique_ptr<simulation::LivingWorld> world;
     std::optional<std::vector<wire::RecordedInput>> ahead;
+    double awaySeconds = 0;
     if (const auto last = lastWorldIn(folder, assets.bytes)) {
         world::WorldOptions options = simulation::worldOptionsOf(assets);
         options.scene.livedSeconds = 0;
         world = std::make_unique<simulation::LivingWorld>(options);
+        if (last->recording.moment) awaySeconds = secondsSince(*last->recording.moment);
         ahead = goOn(*world, *last, timeAway);
     }
     if (!ahead)
         world = std::make_unique<simulation::LivingWorld>(simulation::worldOptionsOf(assets));
     auto journal = std::make_unique<Journal>(folder, assets.bytes, world->world());
+    if (ahead) journal->report()->wentOn(world->tick(), awaySeconds);
     return std::make_unique<JournalledWorld>(
         std::move(world), std::move(journal), ahead.value_or(std::vector<wire::RecordedInput>{}));
 }

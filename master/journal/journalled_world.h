@@ -33,8 +33,8 @@ enum class TimeAway : std::uint8_t { MadeUpFor, LeftOut };
                                                                    TimeAway away);
 
 // Every input is written before it takes effect, hashes and saves as they are due. Where the disk
-// does not have an input in time, it takes effect all the same, and a line in the log says so. Of
-// the tick thread, as the world itself.
+// does not have an input in time, it takes effect all the same: it is counted in the journal and in
+// its report, and a line in the log says so. Of the tick thread, as the world itself.
 class JournalledWorld final : public simulation::SimulationDecorator {
   public:
     // `ahead`: inputs of a world that goes on.
@@ -63,7 +63,8 @@ class JournalledWorld final : public simulation::SimulationDecorator {
     std::unique_ptr<Journal> journal_;
     std::deque<Ahead> ahead_;
     bool isRunning_ = false;
-    std::optional<Tick> lateAt_;  // when it was last said
+    std::uint64_t lateInputs_ = 0;  // that took effect before the disk had them
+    std::optional<Tick> lateAt_;    // when it was last said
 };
 
 // The world of a show, journalled in a folder: that of its journal where it can go on, else a new

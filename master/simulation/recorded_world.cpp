@@ -116,12 +116,6 @@ void ReplayedWorld::apply(const world::WorldInput& /*input*/) {
         logWarning("this is a replay: what visitors do does not reach its world");
 }
 
-std::string timeOf(Tick tick) {
-    const auto seconds =
-        static_cast<std::uint64_t>(static_cast<double>(tick.value) / kTicksPerSecond);
-    return fmt::format("{}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
-}
-
 namespace {
 
 // One pair of functions for each kind of input.

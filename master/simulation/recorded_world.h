@@ -143,9 +143,6 @@ class ReplayedWorld final : public SimulationDecorator {
     bool toldOfInput_ = false, toldOfDifference_ = false, ended_ = false;
 };
 
-// A tick as a time of the recording: "1:02:03".
-[[nodiscard]] std::string timeOf(Tick tick);
-
 // Inputs as a recording stores them, and back.
 [[nodiscard]] wire::RecordedInput recorded(Tick tick, const world::WorldInput& input);
 [[nodiscard]] world::WorldInput inputOf(const wire::RecordedInput& recorded);

@@ -353,9 +353,7 @@ class Doors(unittest.TestCase):
         self.drawings(lambda listed: len(listed["drawings"]) > before, 60)
         wait_until(lambda: (self.scans / "refused/notes.txt").exists(), 60, "what is refused is moved")
         wait_until(lambda: [path.name for path in self.scans.iterdir()] == ["refused"], 60, "and what is read, gone")
-        client = Socket(self.desk, Cookie=self.cookie)
-        events = [f"{event['who']}: {event['what']}" for event in client.hear()["snapshot"]["events"]["events"]]
-        client.close()
+        events = self.events()
         self.assertIn("folder of drawings: picture of notes.txt, refused: "
                       "this is no JPEG, PNG or WebP that can be read", events)
         self.assertRegex("\n".join(events), r"folder of drawings: picture of scan_1.jpg: drawing \d+")
@@ -377,6 +375,29 @@ class Doors(unittest.TestCase):
         self.assertEqual(known(self.drawings(lambda listed: known(listed) == wanted, 60)), wanted)
         path = f"/drawing/{waits}.png"
         self.assertEqual(self.desk.request("GET", path, **self.bearer(self.watcher))[0], 200)
+        self.assertRegex("\n".join(self.events()), r"(?m)^wall: the world goes on from 0:\d\d:\d\d, away for \d+ s$")
+
+    def events(self):
+        client = Socket(self.desk, Cookie=self.cookie)
+        events = client.hear()["snapshot"]["events"]["events"]
+        client.close()
+        return [f"{event['who']}: {event['what']}" for event in events]
+
+    def test_z_a_full_disk_pauses_the_journal_which_is_an_alert_and_the_show_goes_on(self):
+        master = next(pid for command, pid in children_of(self.desk.show).items() if "aquarama master" in command)
+        before = self.desk.status()["frame"]
+        limit = resource.prlimit(master, resource.RLIMIT_FSIZE)
+        resource.prlimit(master, resource.RLIMIT_FSIZE, (1000, limit[1]))  # stands for a full disk
+        client = Socket(self.desk, Cookie=self.cookie)
+        alert = client.hear_until(lambda m: isinstance(m, dict) and any(
+            one["key"] == "journal" for one in m.get("alerts", {}).get("alerts", [])))["alerts"]["alerts"][-1]
+        resource.prlimit(master, resource.RLIMIT_FSIZE, limit)
+        client.close()
+        self.assertEqual(alert["state"], "firing")
+        self.assertRegex(alert["text"], r"^the journal is paused: it cannot be written \(File too large\)")
+        self.assertIn(f"alert: {alert['text']}", self.events())
+        self.assertRegex(aquarama("status", self.desk.rig).stdout, r"(?m)^journal +paused: ")
+        wait_until(lambda: self.desk.status()["frame"] > before + 10, 20, "the show goes on")
 
     def test_a_command_is_a_wanted_value_and_carried_out_once(self):
         client = Socket(self.desk, Cookie=self.cookie)

@@ -196,6 +196,48 @@ TEST(Overview, whatChangesIsSaidInWords) {
     EXPECT_EQ(changesOf(before, after), std::vector<std::string>{"day dusk"});
 }
 
+v1::JournalStatus& journalOf(browser::Wall& wall) {
+    return *wall.mutable_status()->mutable_journal();
+}
+
+// A show that is recorded keeps no journal on purpose.
+TEST(Overview, aJournalThatIsNotWrittenIsAFaultWithItsReason) {
+    browser::Wall wall = heardWall(v1::NODE_IN_STEP);
+    journalOf(wall).set_condition(v1::JournalStatus::WRITTEN);
+    EXPECT_TRUE(faultsOf(wall, kBuild, 101).empty());
+    journalOf(wall).set_condition(v1::JournalStatus::NOT_KEPT);
+    EXPECT_TRUE(faultsOf(wall, kBuild, 101).empty());
+    journalOf(wall).set_reason("no space left");
+    for (const auto condition :
+         {v1::JournalStatus::WAITING, v1::JournalStatus::PAUSED, v1::JournalStatus::REFUSED}) {
+        journalOf(wall).set_condition(condition);
+        const auto faults = faultsOf(wall, kBuild, 101);
+        ASSERT_EQ(faults.size(), 1U);
+        EXPECT_EQ(faults[0].key, "journal");
+        EXPECT_TRUE(faults[0].text.ends_with("no space left")) << faults[0].text;
+    }
+}
+
+TEST(Overview, aWorldThatGoesOnAndInputsThatTheDiskDidNotHaveAreSaid) {
+    const browser::Wall before = heardWall(v1::NODE_IN_STEP);
+    browser::Wall after = wallOf(statusWith(v1::NODE_IN_STEP), 8);
+    journalOf(after).set_went_on_tick(900);
+    journalOf(after).set_away_s(2);
+    EXPECT_EQ(changesOf(before, after),
+              (std::vector<std::string>{"the show has begun: scene reef",
+                                        "the world goes on from 0:00:15, away for 2 s"}));
+    EXPECT_TRUE(changesOf(after, after).empty());
+    browser::Wall late = after;
+    journalOf(late).set_late_inputs(3);
+    journalOf(late).set_late_spells(1);
+    EXPECT_EQ(changesOf(after, late),
+              std::vector<std::string>{"what visitors do takes effect before the journal's disk "
+                                       "has it: 3 inputs so far"});
+    browser::Wall later = late;
+    journalOf(later).set_late_inputs(60);
+    EXPECT_TRUE(changesOf(late, later).empty()) << "once a minute at most";
+}
+
 // A wall with faders at these shares of 255.
 browser::Wall wallAt(std::uint32_t brightness, std::uint32_t colour, const char* scene = "reef") {
     browser::Wall wall = heardWall(v1::NODE_IN_STEP);

@@ -180,6 +180,8 @@ class Pages(unittest.TestCase):
         figures = self.text("section[aria-labelledby=figures]")
         for value in (shown["scene"], shown["quality"], shown["pattern"]):
             self.assertIn(value, figures)
+        self.assertRegex(figures, r"Journal\s+● written\s+newest save \d+ s old · [\d.]+ [kM]B in its file · "
+                                  r"[\d.]+ [kMG]B in all · [\d.]+ [MGT]B free")
         frame = lambda: int(re.search(r"Frame\s+(\d+)", self.text("section[aria-labelledby=figures]"))[1])
         before = self.desk.status()["frame"]
         time.sleep(0.5)

@@ -82,6 +82,14 @@ class Doctor(unittest.TestCase):
         self.assertEqual((status, found["disk"][0][0]), (0, "warn"))
         self.assertRegex(found["disk"][0][1], r"^0 GB free at /proc/")
 
+    def test_a_journal_that_cannot_be_written_fails(self):
+        folder, room = self.findings()[1]["journal"]
+        self.assertRegex(folder[1], r"desk\.journal, the first show makes it$")
+        self.assertRegex(room[1], r" free, three days of the show take 450 MB$")
+        status, found = self.findings(XDG_STATE_HOME=str(self.rig))  # a file
+        self.assertEqual((status, found["journal"][0][0]), (1, "fail"))
+        self.assertRegex(found["journal"][0][1], r"desk\.journal: cannot be written \(Not a directory\)")
+
     def test_a_port_that_another_program_has_fails(self):
         with socket.socket() as other:
             other.bind(("127.0.0.1", int(re.search(r'state: "tcp://127\.0\.0\.1:(\d+)', self.rig.read_text())[1])))

@@ -61,6 +61,10 @@ class Metrics(unittest.TestCase):
         self.assertEqual(before["aquarama_fish"], 381)
         self.assertEqual(before["aquarama_black"], 0)
         self.assertGreater(self.master("aquarama_state_bytes_total"), before["aquarama_state_bytes_total"])
+        self.assertEqual(self.master("aquarama_journal_written"), 1)
+        self.assertLess(self.master("aquarama_journal_save_age_seconds"), 30)
+        self.assertGreater(self.master("aquarama_journal_bytes"), self.master("aquarama_journal_file_bytes"))
+        self.assertGreater(self.master("aquarama_journal_free_disk_bytes"), 1e6)
         for place, name in enumerate(CHANNELS):
             node = figures(self.port + 1 + place)
             self.assertGreater(node["aquarama_presented_total"], 0, name)

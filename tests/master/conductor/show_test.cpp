@@ -494,7 +494,8 @@ ConductorOptions withScenes() {
         if (scene != "lagoon") throw Error("there is no scene " + scene);
         return NextWorld{test::StageMaster::assets(),
                          test::StageMaster::school(),
-                         std::make_unique<test::CountingWorld>()};
+                         std::make_unique<test::CountingWorld>(),
+                         std::make_shared<JournalReport>(v1::JournalStatus::NOT_KEPT, scene)};
     };
     return options;
 }
@@ -550,7 +551,9 @@ TEST(Show, aSceneChangesThroughBlackWhenEveryNodeHasBuiltIt) {
 
     EXPECT_THAT(setting(master, [](v1::WantedShow& show) { show.set_scene("pond"); }),
                 testing::HasSubstr("there is no scene pond"));
-    EXPECT_EQ(ask::RequestClient(master.control()).status().show().scene(), "lagoon");
+    const v1::StatusReply status = ask::RequestClient(master.control()).status();
+    EXPECT_EQ(status.show().scene(), "lagoon");
+    EXPECT_EQ(status.journal().reason(), "lagoon") << "the journal is that of the world";
 }
 
 // The rest of the wall need not wait for one that hangs, and it has another chance.
@@ -629,8 +632,10 @@ TEST(Show, lostStatesAreSentAgain) {
     expectLockstep(journal.events(), 4);
 }
 
-TEST(Show, itsStatusNamesEveryNode) {
-    test::StageMaster master(ConductorOptions{});
+TEST(Show, itsStatusNamesEveryNodeAndTheJournal) {
+    ConductorOptions options;
+    options.journal = std::make_shared<JournalReport>(v1::JournalStatus::REFUSED, "no folder");
+    test::StageMaster master(options);
     test::Journal journal;
     const test::StageNode left("left", master.connect(), journal);
     ASSERT_TRUE(journal.awaitPresented("left", 30));
@@ -638,6 +643,7 @@ TEST(Show, itsStatusNamesEveryNode) {
     EXPECT_THAT(text, testing::HasSubstr("live"));
     EXPECT_THAT(text, testing::ContainsRegex("left +in step"));
     EXPECT_THAT(text, testing::ContainsRegex("right +absent"));
+    EXPECT_THAT(text, testing::ContainsRegex("journal +none: no folder"));
 }
 
 }  // namespace

@@ -145,6 +145,9 @@ TEST_F(JournalTest, aRecordingOfTheJournalPlaysAlsoFromWhereAWorldWentOn) {
     {
         auto world = wentOn(journal());
         EXPECT_GT(world->tick().value, 0U);
+        const v1::JournalStatus status = world->journal().report()->status(net::monotonicNow());
+        EXPECT_EQ(status.went_on_tick(), world->tick().value);
+        EXPECT_LT(status.away_s(), 60);
         while (world->tick().value < 1300) {
             visitAt(*world);
             world->advance();
@@ -236,9 +239,21 @@ TEST_F(JournalTest, aDiskThatStandsStillDelaysNoTickAndInputsTakeEffectAllTheSam
     for (int i = 0; i < 10; ++i) world->advance();
     EXPECT_GT(world->living().world().surroundings().food.pellets, 0U);
     EXPECT_THAT(told, HasSubstr("before the journal's disk had it"));
+    const auto statusSoon = [&] {
+        return world->journal().report()->status(net::monotonicNow() + std::chrono::seconds(4));
+    };
+    while (statusSoon().condition() != v1::JournalStatus::WAITING) std::this_thread::yield();
+    const v1::JournalStatus status = statusSoon();
+    EXPECT_EQ(status.late_inputs(), 1U);
+    EXPECT_EQ(status.late_spells(), 1U);
     diskStandsStill = false;
     setLogListener({});
+    while (world->tick().value < 60) world->advance();
     EXPECT_TRUE(world->journal().flush());
+    EXPECT_EQ(statusSoon().condition(), v1::JournalStatus::WRITTEN);
+    const auto last = lastWorldIn(journal(), assets_.bytes);
+    ASSERT_TRUE(last && last->recording.moment);
+    EXPECT_EQ(last->recording.moment->lateInputs, 1U) << "it is marked";
 }
 
 // A limit of the files' size stands for a full disk.
@@ -254,9 +269,19 @@ TEST_F(JournalTest, aFullDiskPausesTheJournalAndRoomMakesItGoOn) {
     world->apply(world::DropFood{.position = {0, -5, -4}});
     for (int i = 0; i < 400; ++i) world->advance();
     EXPECT_FALSE(world->journal().flush());
+    const v1::JournalStatus paused = world->journal().report()->status(net::monotonicNow());
+    EXPECT_EQ(paused.condition(), v1::JournalStatus::PAUSED);
+    EXPECT_THAT(paused.reason(), testing::StartsWith("it cannot be written"));
     setrlimit(RLIMIT_FSIZE, &before);
     while (world->tick().value < kSavesBetweenRecorded * kTicksBetweenSaves + 10) world->advance();
     EXPECT_TRUE(world->journal().flush());
+    const v1::JournalStatus status = world->journal().report()->status(net::monotonicNow());
+    EXPECT_EQ(status.condition(), v1::JournalStatus::WRITTEN);
+    EXPECT_EQ(status.pauses(), 1U);
+    EXPECT_LT(status.save_age_s(), 60);
+    EXPECT_EQ(status.folder_bytes(), bytesIn(journal()));
+    EXPECT_EQ(status.file_bytes(), fs::file_size(recordingsIn(journal()).back()));
+    EXPECT_GT(status.free_disk_bytes(), 0U);
     const std::uint64_t hash = world->hash();
     auto again = wentOn(copied());
     while (again->tick() < world->tick()) again->advance();
