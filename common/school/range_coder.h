@@ -35,6 +35,7 @@ inline void learn(BitModel& model, bool bit) {
 // Writes bits. All functions return what they were given.
 class RangeEncoder {
   public:
+    // A bit, as its model expects it; the model learns it.
     bool bit(BitModel& model, bool value) {
         const std::uint32_t bound = boundOf(range_, model);
         if (value) {
@@ -111,6 +112,7 @@ class RangeDecoder {
     explicit RangeDecoder(std::span<const std::byte> bytes) : rest_(bytes) {
         for (int byte = 0; byte < 4; ++byte) code_ = code_ << 8U | next();
     }
+    // As of RangeEncoder.
     bool bit(BitModel& model, bool /*value*/) {
         const std::uint32_t bound = boundOf(range_, model);
         const bool value = code_ >= bound;
@@ -127,6 +129,7 @@ class RangeDecoder {
         }
         return value;
     }
+    // As of RangeEncoder.
     std::uint32_t plain(unsigned bits, std::uint32_t /*value*/) {
         std::uint32_t value = 0;
         for (unsigned at = 0; at < bits; ++at) {

@@ -23,6 +23,7 @@ struct Placements {
     Tick since;
     std::vector<std::uint32_t> fish;
 
+    // One more, at this tick.
     void note(std::uint32_t placed, Tick now) {
         if (now != since) fish.clear();
         since = now;

@@ -104,7 +104,7 @@ void MasterLink::turn() {
 void MasterLink::handle(const Join&) {
     connection_.renew();
     phase_ = Phase::Greeting;
-    hearsStates_.reset();
+    moments_.statesSince.reset();
     fetch_.stop();
     skins_.restart();
     school_.forget();
@@ -120,7 +120,7 @@ void MasterLink::handle(const Built& built) {
 
 void MasterLink::handle(const NodeFacts& facts) {
     facts_ = facts;
-    lastReport_ = {};
+    moments_.report = {};
 }
 
 void MasterLink::handle(const Logged& line) {
@@ -141,7 +141,7 @@ void MasterLink::handle(const v1::Envelope& message) {
 void MasterLink::readControl(const net::ByteVector& bytes) {
     const auto message = wire::decode(bytes);
     if (!message) return;
-    lastHeard_ = net::monotonicNow();
+    moments_.heard = net::monotonicNow();
     take(*message);
 }
 
@@ -206,8 +206,8 @@ void MasterLink::readState(const net::ByteVector& bytes) {
     const auto message = wire::decode(bytes);
     if (!message || connection_.session() == 0) return;
     if (message->session() != connection_.session()) return lose("the master was started again");
-    lastHeard_ = net::monotonicNow();
-    if (!hearsStates_) hearsStates_ = lastHeard_;
+    moments_.heard = net::monotonicNow();
+    if (!moments_.statesSince) moments_.statesSince = moments_.heard;
     if (!message->has_state()) return;
     auto state = wire::readState(message->state());
     if (!state) return;
@@ -215,7 +215,7 @@ void MasterLink::readState(const net::ByteVector& bytes) {
     skins_.want(show.skins);
     const bool isOurLook = show.look == welcome_.look().number();
     if (isOurLook && show.calibration != calibration_) return lose("the wall is calibrated anew");
-    school_.take(*std::move(state), lastHeard_);
+    school_.take(*std::move(state), moments_.heard);
     offerFrames();
 }
 
@@ -306,10 +306,10 @@ void MasterLink::lose(const std::string& why) {
 void MasterLink::doWhatIsDue(net::Moment now) {
     if (phase_ == Phase::Outside) return;
     if (phase_ == Phase::Greeting) return connection_.greet(now);
-    if (now - lastHeard_ > kMasterSilence) return lose("the master has fallen silent");
+    if (now - moments_.heard > kMasterSilence) return lose("the master has fallen silent");
     if (auto ping = pings_.due(now)) connection_.say(*std::move(ping));
     sayLog();
-    if (phase_ == Phase::Member && now - lastReport_ >= kReport) sayReport(now);
+    if (phase_ == Phase::Member && now - moments_.report >= kReport) sayReport(now);
     try {
         if (fetch_.turn(now)) admit();
     } catch (const Error& problem) {
@@ -327,7 +327,7 @@ void MasterLink::doWhatIsDue(net::Moment now) {
 
 bool MasterLink::mayBePrepared(net::Moment now) const {
     const bool isWhole = skins_.isComplete() && !school_.isBehind();
-    return hearsStates_ && (isWhole || now - *hearsStates_ > kSkins);
+    return moments_.statesSince && (isWhole || now - *moments_.statesSince > kSkins);
 }
 
 void MasterLink::sayPrepared() {
@@ -347,7 +347,7 @@ void MasterLink::sayReport(net::Moment now) {
     report.set_real_time(isInRealTime_);
     figures_.gpuCelsius = report.gpu_celsius();
     connection_.say(std::move(message));
-    lastReport_ = now;
+    moments_.report = now;
 }
 
 // A few lines a turn, so that a flood of lines delays nothing else.

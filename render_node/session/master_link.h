@@ -32,6 +32,13 @@ struct LinkFigures {
     std::atomic<float> gpuCelsius = 0;          // 0: unknown
 };
 
+// When the master was last heard, when it was last told of this node, and since when states are
+// heard of this welcome.
+struct LinkMoments {
+    net::Moment heard{}, report{};
+    std::optional<net::Moment> statesSince;
+};
+
 // It says hello until a master welcomes the node, fetches the blobs that are missing, sends pings
 // and reports, and joins again when the master is lost or restarted. Functions are of the net
 // thread, unless they say otherwise.
@@ -125,13 +132,12 @@ class MasterLink {
     SkinFetch skins_;
     SchoolFollower school_;
     Built built_;
-    std::optional<net::Moment> hearsStates_;  // since when, of this welcome
     Pings pings_;
     FrameReports frames_;
     NodeFacts facts_;
     bool isInRealTime_ = false;       // the net thread
     std::deque<v1::LogLine> unsaid_;  // lines of the log for the master
-    net::Moment lastHeard_{}, lastReport_{};
+    LinkMoments moments_;
 };
 
 }  // namespace aquarama::session

@@ -82,6 +82,7 @@ class SchoolFollower {
     std::map<Tick, wire::SchoolStep> steps_;   // those to come, and some before
     std::deque<Waiting> waiting_;              // for their fish, in order
     bool isMissing_ = false;                   // a keyframe is needed
+    bool isWrong_ = false;                     // as its fish are others than the master's
     std::optional<net::BlobAssembly> assembly_;
     net::Moment lastAsked_{};
     std::uint64_t mismatches_ = 0;
