@@ -24,7 +24,7 @@ enum Change : unsigned {
 
 // Commands have levels (master/fish/secondary_controller.cpp); others are possible, and cost more.
 constexpr unsigned kRateLevelBits = 5;  // 1/32 of the recorded rate
-constexpr std::int32_t kMostRateLevel = 63;
+constexpr std::int32_t kMostRateLevel = 63, kMostRate = 0x7FFF;
 constexpr std::int32_t kFarthestRateOff = 7;
 constexpr std::int32_t kPitchLevel = 1024;  // 1/32 of the sine
 constexpr std::int32_t kMiddlePitch = 64;
@@ -43,7 +43,7 @@ unsigned manner(std::uint8_t action) {
 
 // The rate of a level, rounded to nearest; and the level of a rate, 0 where it has none.
 std::int32_t rateOf(std::int32_t level, std::int32_t recorded) {
-    return (recorded * level + (1 << (kRateLevelBits - 1))) >> kRateLevelBits;
+    return std::min((recorded * level + (1 << (kRateLevelBits - 1))) >> kRateLevelBits, kMostRate);
 }
 std::int32_t levelOf(std::int32_t rate, std::int32_t recorded) {
     if (recorded <= 0) return 0;
@@ -56,7 +56,7 @@ std::int32_t expectedRate(std::int32_t rate, std::int32_t recorded, std::int32_t
     if (recorded <= 0 || recordedNow <= 0) return rate;
     const std::int32_t level = levelOf(rate, recorded);
     if (level > 0) return rateOf(level, recordedNow);
-    return std::min((rate * recordedNow + recorded / 2) / recorded, 32767);
+    return std::min((rate * recordedNow + recorded / 2) / recorded, kMostRate);
 }
 
 std::int32_t brakeLevelOf(std::int32_t brake) {
@@ -104,12 +104,8 @@ class StepCode {
     bool commands(const motion::MotorCommands& wanted) {
         wanted_ = &wanted;
         const std::size_t fish = known_.action.size();
-        std::size_t kind = 0;
-        for (std::size_t first = 0; first < fish; first += kTicksBetweenDecisions) {
-            while (kind + 1 < memory_.rates.size() && memory_.rates[kind].last <= first) ++kind;
-            kind_ = kind;
+        for (std::size_t first = 0; first < fish; first += kTicksBetweenDecisions)
             eight(first, std::min<std::size_t>(first + kTicksBetweenDecisions, fish));
-        }
         return isGood_;
     }
 
@@ -166,10 +162,10 @@ class StepCode {
 
     void decision(std::size_t fish) {
         std::uint8_t& recent = memory_.recentlyChanged[fish];
-        const bool changes =
-            coder_.bit(models_.decides[manner(known_.action[fish])][recent], changesOf(fish) != 0);
-        recent = static_cast<std::uint8_t>((recent << 1U | unsigned{changes}) & 3U);
-        if (changes) change(fish);
+        const bool isNew =
+            coder_.bit(models_.decides[manner(known_.action[fish])][recent], changes(fish));
+        recent = static_cast<std::uint8_t>((recent << 1U | unsigned{isNew}) & 3U);
+        if (isNew) change(fish);
     }
 
     // Which commands of a fish change. A rate that changes in proportion with its action does not
@@ -241,12 +237,12 @@ class StepCode {
         const auto level = static_cast<std::int32_t>(
             tree<6>(models_.rate[static_cast<std::size_t>(levelBefore)],
                     static_cast<std::uint32_t>(levelOf(wanted, recorded))));
-        if (level > 0 && recorded > 0) return rateOf(level, recorded) & 0x7FFF;
+        if (level > 0 && recorded > 0) return rateOf(level, recorded);
         const std::int32_t off = wanted - expected;
         const bool isNear = off >= -kFarthestRateOff && off <= kFarthestRateOff;
         const auto read = static_cast<std::int32_t>(tree<4>(
             models_.rateOff, isNear ? static_cast<std::uint32_t>(off + kFarthestRateOff + 1) : 0U));
-        if (read > 0) return (expected + read - kFarthestRateOff - 1) & 0x7FFF;
+        if (read > 0) return (expected + read - kFarthestRateOff - 1) & kMostRate;
         return static_cast<std::int32_t>(coder_.plain(15, static_cast<std::uint32_t>(wanted)));
     }
 

@@ -38,6 +38,7 @@ std::vector<RecordedRates> rates() {
         for (std::size_t action = 0; action < kind.phaseRate.size(); ++action)
             kind.phaseRate[action] = static_cast<std::int16_t>(300 + 7 * action + kind.first);
     rates.front().phaseRate[3] = 0;
+    rates.back().phaseRate[4] = std::numeric_limits<std::int16_t>::max();
     return rates;
 }
 
