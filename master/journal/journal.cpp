@@ -48,16 +48,6 @@ Digest digestOfRepertoire(const wire::SpeciesAssets& species) {
     return species.repertoireDigest ? *species.repertoireDigest : digestOf(species.repertoire);
 }
 
-// Whether both bundles make the same world. Names of files mean nothing.
-bool makeOneWorld(const wire::AssetBundle& a, const wire::AssetBundle& b) {
-    const auto isSame = [](const wire::SpeciesAssets& one, const wire::SpeciesAssets& other) {
-        return one.text == other.text && one.fish == other.fish && one.drawings == other.drawings &&
-               digestOfRepertoire(one) == digestOfRepertoire(other);
-    };
-    return a.seed == b.seed && a.scene == b.scene && a.drawingsMayBeEaten == b.drawingsMayBeEaten &&
-           std::ranges::equal(a.cast, b.cast, isSame);
-}
-
 fs::path savesOf(const fs::path& recording) {
     return fs::path(recording).replace_extension(kSaves);
 }
@@ -91,6 +81,15 @@ void removeOldIn(const fs::path& folder) {
 }
 
 }  // namespace
+
+bool makeOneWorld(const wire::AssetBundle& a, const wire::AssetBundle& b) {
+    const auto isSame = [](const wire::SpeciesAssets& one, const wire::SpeciesAssets& other) {
+        return one.text == other.text && one.fish == other.fish && one.drawings == other.drawings &&
+               digestOfRepertoire(one) == digestOfRepertoire(other);
+    };
+    return a.seed == b.seed && a.scene == b.scene && a.drawingsMayBeEaten == b.drawingsMayBeEaten &&
+           std::ranges::equal(a.cast, b.cast, isSame);
+}
 
 std::optional<LastWorld> lastWorldIn(const fs::path& folder, const wire::AssetBundle& assets) {
     std::vector<fs::path> recordings = filesIn(folder, kRecordings);

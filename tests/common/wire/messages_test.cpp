@@ -67,6 +67,18 @@ TEST(Messages, haveTheBytesThatTheyAlwaysHad) {
         EXPECT_EQ(toHex(digestOf(packets[i])).substr(0, 16), digests[i]) << nameOf(packets[i]);
 }
 
+// A master puts its lease before packets of any kind.
+TEST(Messages, carryTheLeaseThatIsPutBeforeThem) {
+    for (const Packet& packet : samplePackets()) {
+        Packet fenced = leaseField(77);
+        fenced.insert(fenced.end(), packet.begin(), packet.end());
+        const auto plain = decode(packet), message = decode(fenced);
+        ASSERT_TRUE(message) << nameOf(packet);
+        EXPECT_EQ(message->message_case(), plain->message_case());
+        EXPECT_EQ(message->lease_revision(), 77U);
+    }
+}
+
 TEST(Messages, everyKindComesBackToTheBit) {
     for (const Packet& packet : samplePackets()) {
         const auto decoded = decode(packet);
@@ -440,6 +452,7 @@ TEST(Messages, boundsOfTheCodeAreThoseOfTheSchema) {
     EXPECT_EQ(ruleOf(v1::Show(), "scene").most_bytes(), kMostNameBytes);
     EXPECT_EQ(ruleOf(v1::LogLine(), "text").most_bytes(), kMostLogBytes);
     EXPECT_EQ(ruleOf(v1::BlobChunk(), "content").most_bytes(), kBlobChunkBytes);
+    EXPECT_EQ(ruleOf(v1::Journalled(), "entries").most_bytes(), kBlobChunkBytes);
     EXPECT_EQ(ruleOf(v1::BlobChunk(), "total").most(), kMostBlobBytes);
     EXPECT_EQ(ruleOf(v1::Explanation(), "lines").most(), kMostExplanationLines);
     EXPECT_EQ(ruleOf(v1::Explanation(), "lines").most_bytes(), kMostExplanationLineBytes);
