@@ -42,6 +42,12 @@ void Connection::renew() {
     if (!hasSeveral() || lastComplaint_ == net::Moment{}) lastComplaint_ = lastRenewal_;
 }
 
+void Connection::enter(std::uint64_t session) {
+    session_ = session;
+    lastDismissal_.clear();
+    lastComplaint_ = {};
+}
+
 void Connection::alsoAt(const std::string& address) {
     if (std::ranges::find(addresses_, address) == addresses_.end()) addresses_.push_back(address);
 }

@@ -38,7 +38,7 @@ class Connection {
     // The master does not let the node in yet; greet() logs this reason.
     void notYet(const std::string& reason) { lastDismissal_ = reason; }
     // The run of the master that all further messages go to.
-    void enter(std::uint64_t session) { session_ = session; }
+    void enter(std::uint64_t session);
     void leave() { session_ = 0; }
     // 0: no run has welcomed the node.
     [[nodiscard]] std::uint64_t session() const { return session_; }

@@ -79,7 +79,7 @@ class Machine:
     """The process that is, or may become, the master; it keeps what it keeps in a folder of its own."""
 
     def __init__(self, folder, name, command, rig):
-        self.folder, self.rig, self.command = Path(folder) / name, rig, command
+        self.folder, self.name, self.rig, self.command = Path(folder) / name, name, rig, command
         self.folder.mkdir()
         self.log = self.folder / "log"
         self.start()
@@ -127,62 +127,70 @@ class Standby(unittest.TestCase):
 
     def shown(self):
         """When the node showed frames, seconds of the monotonic clock."""
-        rows = (row.split(",") for row in (Path(self.folder.name) / "left.csv").read_text().splitlines())
+        trace = Path(self.folder.name) / "left.csv"
+        rows = (row.split(",") for row in (trace.read_text().splitlines() if trace.exists() else []))
         return [int(row[3]) * 1e-9 for row in rows if len(row) == 4 and row[0].isdigit() and row[3]]
 
     def stands_by(self, machine, times=1):
         wait_until(lambda: machine.says("simulates along with the master", times), 60, "a standby in step")
 
-    def take_over(self, old, new, times):
-        killed = time.monotonic()
-        os.kill(old.process.pid, signal.SIGKILL)
-        wait_until(lambda: new.says("takes over at", times), 30, "the other machine to take over")
-        seconds = time.monotonic() - killed
-        wait_until(lambda: self.shown()[-1] > killed + 1 and time.monotonic() - self.shown()[-1] < 0.5, 60,
+    def stood_still(self, since):
+        """The longest time between two frames that the node showed, once it shows them again."""
+        wait_until(lambda: self.shown()[-1] > since + 1 and time.monotonic() - self.shown()[-1] < 0.5, 60,
                    "the node to show frames again")
         shown = self.shown()
-        still = max(after - before for before, after in zip(shown, shown[1:]) if after > killed)
-        print(f"master after {seconds:.2f} s, the wall stood still for {still:.2f} s", flush=True)
+        return max(after - before for before, after in zip(shown, shown[1:]) if after > since)
+
+    def takes_over(self, new, does):
+        """What is done to the master's process makes the other machine the master."""
+        times = new.log.read_text().count("takes over at")
+        begun = time.monotonic()
+        does()
+        wait_until(lambda: new.says("takes over at", times + 1), 30, "the other machine to take over")
+        seconds = time.monotonic() - begun
+        print(f"master after {seconds:.2f} s, the wall stood still for {self.stood_still(begun):.2f} s", flush=True)
+        self.assertLess(seconds, 5)  # of two, where processes share a processor
+
+    def is_killed(self, old, new):
+        leading, following = old.recordings()[-1], new.recordings()[-1]
+        self.takes_over(new, lambda: os.kill(old.process.pid, signal.SIGKILL))
+        time.sleep(2.5)
+        whole = Path(self.folder.name) / "whole.aqrec"
+        self.assertGreater(joined(leading, following, whole), 1, "hashes of the time after")
+        checked = aquarama("replay", whole, "--check")
+        self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+        self.assertIn("the replay is the same world", checked.stdout)
         old.process.wait()
-        return seconds
+        old.start()
 
-    def test_the_world_goes_on_whichever_master_is_killed(self):
+    def is_held_up(self, old, new):
+        lost = self.node_log.read_text().count("lost the master")
+        self.takes_over(new, lambda: os.kill(old.process.pid, signal.SIGSTOP))
+        os.kill(old.process.pid, signal.SIGCONT)
+        wait_until(lambda: old.says("no longer the master: " + new.name), 30, "the former master to step down")
+        self.assertFalse(new.says("no longer the master: " + old.name))
+        self.assertEqual(self.node_log.read_text().count("lost the master"), lost + 1, "nothing that it said counts")
+
+    def is_told(self, old, new):
+        def tell():
+            said = aquarama("set", self.rig, "master", new.name)
+            self.assertEqual(said.returncode, 0, said.stdout + said.stderr)
+
+        self.takes_over(new, tell)
+
+    def test_the_world_goes_on_whatever_becomes_of_the_master(self):
         self.start_node()
-        self.stands_by(self.spare)
-        wait_until(lambda: len(self.shown()) > 60, 60, "frames")
-        time.sleep(2)
-        machines = [self.main, self.spare]
-        taken = {self.main: 0, self.spare: 0}
-        followed = {self.main: 0, self.spare: 1}
-        for _ in range(TAKEOVERS):
+        machines, followed = [self.main, self.spare], {self.main: 0, self.spare: 1}
+        for what in [self.is_killed] * TAKEOVERS + [self.is_told, self.is_held_up]:
             old, new = machines
-            taken[new] += 1
-            before = new.recordings()[-1]
-            leading = old.recordings()[-1]
-            self.assertLess(self.take_over(old, new, taken[new]), 5)
-            time.sleep(3)
-            whole = Path(self.folder.name) / "whole.aqrec"
-            self.assertGreater(joined(leading, before, whole), 1, "hashes of the time after")
-            checked = aquarama("replay", whole, "--check")
-            self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
-            self.assertIn("the replay is the same world", checked.stdout)
-            self.assertNotIn("differs from the master's", new.log.read_text())
-            old.start()
+            self.stands_by(new, followed[new])
+            wait_until(lambda: self.shown() and time.monotonic() - self.shown()[-1] < 0.5, 60, "frames")
+            time.sleep(1)
+            what(old, new)
             followed[old] += 1
-            self.stands_by(old, followed[old])
             machines.reverse()
-
-    def test_a_master_that_was_held_up_steps_down(self):
-        self.start_node()
-        self.stands_by(self.spare)
-        wait_until(lambda: len(self.shown()) > 60, 60, "frames")
-        os.kill(self.main.process.pid, signal.SIGSTOP)
-        wait_until(lambda: self.spare.says("takes over at"), 30, "the standby to take over")
-        os.kill(self.main.process.pid, signal.SIGCONT)
-        wait_until(lambda: self.main.says("no longer the master: spare is"), 30, "the former master to step down")
-        self.stands_by(self.main)
-        self.assertFalse(self.spare.says("no longer the master"))
-        self.assertEqual(self.node_log.read_text().count("joining again"), 1, "nothing that it said counts")
+        for machine in machines:
+            self.assertNotIn("differs from the master's", machine.log.read_text())
 
 
 if __name__ == "__main__":
