@@ -85,6 +85,11 @@ void checkNetwork(const TextReader& file, const v1::Network& in) {
 
 namespace {
 
+bool isPort(std::string_view text) {
+    const int port = wholeNumber(text).value_or(0);
+    return port >= 1 && port <= 65535;
+}
+
 // Why a member of etcd cannot be reached so; empty where it can.
 std::string objectionTo(const std::string& url) {
     const std::size_t slashes = url.find("://");
@@ -93,8 +98,7 @@ std::string objectionTo(const std::string& url) {
     if (colon <= slashes || (scheme != "http" && scheme != "https"))
         return "is no address: write http://127.0.0.1:2379, or https://192.168.7.1:2379";
     const std::string_view host = text.substr(slashes + 3, colon - slashes - 3);
-    const int port = wholeNumber(text.substr(colon + 1)).value_or(0);
-    if (port < 1 || port > 65535) return "needs a port from 1 to 65535";
+    if (!isPort(text.substr(colon + 1))) return "needs a port from 1 to 65535";
     if (!isHost(host)) return "needs the number of one network card, as https://192.168.7.1:2379";
     if (scheme == "http" && !isLoopback(host))
         return "reaches past this machine: write https, and give both certificates";

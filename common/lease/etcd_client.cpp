@@ -112,7 +112,7 @@ void EtcdClient::revoke(std::int64_t lease) {
     ask("lease/revoke", leaseRequest(lease));
 }
 
-std::optional<Holder> EtcdClient::holder(const LeaseKeys& keys) {
+std::optional<LeaseHolder> EtcdClient::holder(const LeaseKeys& keys) {
     return holderAnswer(ask("kv/range", holderRequest(keys)));
 }
 

@@ -43,7 +43,7 @@ class EtcdClient {
     // The seconds that the lease lives on from now; 0: it has expired.
     [[nodiscard]] int keepAlive(std::int64_t lease);
     void revoke(std::int64_t lease);  // with all keys under it
-    [[nodiscard]] std::optional<Holder> holder(const LeaseKeys& keys);
+    [[nodiscard]] std::optional<LeaseHolder> holder(const LeaseKeys& keys);
     [[nodiscard]] Taken take(const LeaseKeys& keys,
                              const std::string& name,
                              std::int64_t lease,

@@ -104,7 +104,7 @@ LeaseAnswer leaseIn(const json& object) {
 }
 
 // The only entry of an answer to a range.
-std::optional<Holder> holderIn(const json& range) {
+std::optional<LeaseHolder> holderIn(const json& range) {
     const json* const entries = memberOf(range, "kvs");
     if (entries == nullptr || entries->empty()) return std::nullopt;
     if (!entries->is_array()) refuse("keys that are no list");
@@ -112,9 +112,9 @@ std::optional<Holder> holderIn(const json& range) {
     const json* const value = memberOf(entry, "value");
     const std::string name =
         value != nullptr && value->is_string() ? nameIn(value->get_ref<const std::string&>()) : "";
-    return Holder{name,
-                  numberOf(entry, "lease"),
-                  static_cast<std::uint64_t>(numberOf(entry, "mod_revision"))};
+    return LeaseHolder{name,
+                       numberOf(entry, "lease"),
+                       static_cast<std::uint64_t>(numberOf(entry, "mod_revision"))};
 }
 
 }  // namespace
@@ -162,7 +162,7 @@ LeaseAnswer keepAliveAnswer(const std::string& body) {
     return leaseIn(objectOf(objectIn(body), "result"));
 }
 
-std::optional<Holder> holderAnswer(const std::string& body) {
+std::optional<LeaseHolder> holderAnswer(const std::string& body) {
     const json answer = objectIn(body);
     static_cast<void>(objectOf(answer, "header"));
     return holderIn(answer);

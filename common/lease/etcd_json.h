@@ -11,7 +11,7 @@
 namespace aquarama::lease {
 
 // Who holds a key.
-struct Holder {
+struct LeaseHolder {
     std::string name;            // the value of the key, printable
     std::int64_t lease = 0;      // under which it was put
     std::uint64_t revision = 0;  // of its put
@@ -26,7 +26,7 @@ struct LeaseKeys {
 // The result of an attempt to take a key.
 struct Taken {
     std::optional<std::uint64_t> revision;  // of the put; nothing: it was not taken
-    std::optional<Holder> holder;           // who has it then, if anybody
+    std::optional<LeaseHolder> holder;      // who has it then, if anybody
 };
 
 // Bodies of requests. `seconds`: the time to live of a lease.
@@ -48,7 +48,7 @@ struct LeaseAnswer {
 };
 [[nodiscard]] LeaseAnswer grantAnswer(const std::string& body);
 [[nodiscard]] LeaseAnswer keepAliveAnswer(const std::string& body);
-[[nodiscard]] std::optional<Holder> holderAnswer(const std::string& body);
+[[nodiscard]] std::optional<LeaseHolder> holderAnswer(const std::string& body);
 [[nodiscard]] Taken takeAnswer(const std::string& body);
 
 }  // namespace aquarama::lease

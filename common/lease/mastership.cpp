@@ -98,7 +98,7 @@ void Mastership::sayTrouble(const std::string& problem) {
     logWarning("etcd does not answer, so that nobody becomes master: {}", problem);
 }
 
-void Mastership::sayHolder(const std::optional<Holder>& holder) {
+void Mastership::sayHolder(const std::optional<LeaseHolder>& holder) {
     const std::lock_guard lock(mutex_);
     master_ = holder ? holder->name : "";
 }
@@ -147,7 +147,7 @@ void Mastership::grant() {
 
 // `sentNs`: when the request was sent whose answer says so.
 void Mastership::gain(std::uint64_t revision, std::int64_t sentNs) {
-    sayHolder(Holder{name_, *lease_, revision});
+    sayHolder(LeaseHolder{name_, *lease_, revision});
     heldUntilNs_ = sentNs + std::chrono::nanoseconds(kAnswerCounts).count();
     const std::uint64_t before = revision_.exchange(revision);
     wasHeld_ = true;

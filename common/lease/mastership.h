@@ -65,7 +65,7 @@ class Mastership {
     void takeAgain();
     void lose(const std::string& why);
     void sayTrouble(const std::string& problem);
-    void sayHolder(const std::optional<Holder>& holder);
+    void sayHolder(const std::optional<LeaseHolder>& holder);
     void giveUp();
 
     LeaseKeys keys_;

@@ -65,11 +65,13 @@ void StandbyFeed::hear(const net::PeerId& peer, const v1::Follow& follow, net::M
     peer_ = peer;
     machine_ = follow.machine();
     lastHeard_ = now;
-    if (!knowsStream) {
-        // While it is made, it has none.
-        if (!awaitsBeginning_ || follow.stream() != 0) beginAgain();
-        return;
-    }
+    if (knowsStream)
+        note(follow);
+    else if (!awaitsBeginning_ || follow.stream() != 0)  // while it is made, there is none
+        beginAgain();
+}
+
+void StandbyFeed::note(const v1::Follow& follow) {
     taken_ = std::clamp(follow.taken(), taken_, sentParts_);
     if (!std::exchange(isInStep_, follow.in_step()) && isInStep_)
         logInfo("{} stands by: it simulates along", machine_);
@@ -98,11 +100,13 @@ void StandbyFeed::drop(const std::string& why) {
 void StandbyFeed::turn(Simulation& simulation, const FollowedShow& show, net::Moment now) {
     if (peer_.empty()) return;
     if (now - lastHeard_ > (isInStep_ ? kSilence : kLongestBeginning)) return drop("it is silent");
-    if (parts_.empty()) {
-        const auto piece = pieceOf(simulation);
-        if (piece && isNews(*piece, show, now)) cut(*piece, show);
-    }
+    if (parts_.empty()) cutNext(simulation, show, now);
     send(now);
+}
+
+void StandbyFeed::cutNext(Simulation& simulation, const FollowedShow& show, net::Moment now) {
+    const auto piece = pieceOf(simulation);
+    if (piece && isNews(*piece, show, now)) cut(*piece, show);
 }
 
 // Of a stream that was given up nothing is wanted any more.

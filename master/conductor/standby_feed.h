@@ -59,6 +59,8 @@ class StandbyFeed {
                               const FollowedShow& show,
                               net::Moment now) const;
     void send(net::Moment now);
+    void note(const v1::Follow& follow);
+    void cutNext(Simulation& simulation, const FollowedShow& show, net::Moment now);
     void cut(const JournalPiece& piece, const FollowedShow& show);
     void writeShow(const FollowedShow& show, v1::Journalled& part);
     void drop(const std::string& why);

@@ -49,13 +49,15 @@ void Follower::turn() {
         channels_ = options_.connect();
         lastHeard_ = now;
     }
+    hear();
+    if (world_) advance(kMostTicksATurn);
+}
+
+void Follower::hear() {
     const bool isBehind = world_ && tick() < known_;
     channels_->wait(isBehind ? net::Duration{0} : kLongestWait);
-    while (const auto bytes = channels_->receiveControl()) {
-        const auto message = wire::decode(*bytes);
-        if (message) read(*message);
-    }
-    if (world_) advance(kMostTicksATurn);
+    while (const auto bytes = channels_->receiveControl())
+        if (const auto message = wire::decode(*bytes)) read(*message);
 }
 
 void Follower::follow(net::Moment now) {
@@ -80,21 +82,17 @@ void Follower::follow(net::Moment now) {
     lastFollow_ = now;
 }
 
+// Anything else: the master prepares.
 void Follower::read(const v1::Envelope& message) {
     lastHeard_ = net::monotonicNow();
-    switch (message.message_case()) {
-        case v1::Envelope::kJournalled:
-            return take(message.journalled());
-        case v1::Envelope::kRefusal:
-            if (std::exchange(refusal_, message.refusal().reason()) != message.refusal().reason())
-                logError("the master refuses the standby {}: {}", options_.machine, refusal_);
-            return;
-        case v1::Envelope::kFarewell:
-            if (world_ && !std::exchange(isOver_, true))
-                logInfo("the master has ended the show; standing by for the next one");
-            return;
-        default:
-            return;  // it prepares
+    if (message.has_journalled()) return take(message.journalled());
+    if (message.has_refusal() && refusal_ != message.refusal().reason()) {
+        refusal_ = message.refusal().reason();
+        logError("the master refuses the standby {}: {}", options_.machine, refusal_);
+    }
+    if (message.has_farewell() && hasWorld()) {
+        isOver_ = true;
+        logInfo("the master has ended the show; standing by for the next one");
     }
 }
 

@@ -59,6 +59,7 @@ class Follower {
 
   private:
     void follow(net::Moment now);
+    void hear();
     void read(const v1::Envelope& message);
     void take(const v1::Journalled& part);
     void takePiece(const wire::Packet& piece, Tick tick);

@@ -46,33 +46,39 @@ std::filesystem::path freshFolder() {
 // One member, as docs/cluster.md starts it.
 class Etcd {
   public:
-    Etcd() : folder_{freshFolder()}, port_{freePort()} {
-        const std::string client = urlAt(port_), peer = urlAt(freePort());
-        process_ = fork();
-        if (process_ != 0) return;
-        freopen((folder_ / "log").c_str(), "w", stderr);
-        execl(kEtcd,
-              kEtcd,
-              "--name",
-              "one",
-              "--data-dir",
-              (folder_ / "data").c_str(),
-              "--listen-client-urls",
-              client.c_str(),
-              "--advertise-client-urls",
-              client.c_str(),
-              "--listen-peer-urls",
-              peer.c_str(),
-              "--initial-advertise-peer-urls",
-              peer.c_str(),
-              "--initial-cluster",
-              ("one=" + peer).c_str(),
-              "--heartbeat-interval",
-              "50",
-              "--election-timeout",
-              "500",
-              nullptr);
-        _exit(1);
+    // With `certificates`, of that folder, it is reached by https alone, and by who shows one.
+    explicit Etcd(const std::filesystem::path& certificates = {})
+        : folder_{freshFolder()},
+          url_{(certificates.empty() ? "http" : "https") + urlAt(freePort()).substr(4)} {
+        const std::string peer = urlAt(freePort());
+        std::vector<std::string> arguments{kEtcd,
+                                           "--name",
+                                           "one",
+                                           "--data-dir",
+                                           folder_ / "data",
+                                           "--listen-client-urls",
+                                           url_,
+                                           "--advertise-client-urls",
+                                           url_,
+                                           "--listen-peer-urls",
+                                           peer,
+                                           "--initial-advertise-peer-urls",
+                                           peer,
+                                           "--initial-cluster",
+                                           "one=" + peer,
+                                           "--heartbeat-interval",
+                                           "50",
+                                           "--election-timeout",
+                                           "500"};
+        if (!certificates.empty())
+            for (const auto& [name, file] : {std::pair("--cert-file", "own.pem"),
+                                             {"--key-file", "own-key.pem"},
+                                             {"--trusted-ca-file", "ca.pem"}}) {
+                arguments.emplace_back(name);
+                arguments.push_back(certificates / file);
+            }
+        if (!certificates.empty()) arguments.emplace_back("--client-cert-auth");
+        start(arguments);
     }
     ~Etcd() {
         kill(process_, SIGKILL);
@@ -82,13 +88,24 @@ class Etcd {
     Etcd(const Etcd&) = delete;
     Etcd& operator=(const Etcd&) = delete;
 
-    [[nodiscard]] std::string url() const { return urlAt(port_); }
+    [[nodiscard]] const std::string& url() const { return url_; }
     void hold() const { kill(process_, SIGSTOP); }
     void letGo() const { kill(process_, SIGCONT); }
 
   private:
+    void start(std::vector<std::string>& arguments) {
+        std::vector<char*> pointers;
+        for (std::string& argument : arguments) pointers.push_back(argument.data());
+        pointers.push_back(nullptr);
+        process_ = fork();
+        if (process_ != 0) return;
+        if (freopen((folder_ / "log").c_str(), "w", stderr) != nullptr)
+            execv(kEtcd, pointers.data());
+        _exit(1);
+    }
+
     std::filesystem::path folder_;
-    int port_;
+    std::string url_;
     pid_t process_ = 0;
 };
 
@@ -216,6 +233,29 @@ TEST_F(MastershipTest, IsLostWhereAnotherWasTheMaster) {
     ASSERT_TRUE(comesTrue([&] { return first->isLost(); }));
     EXPECT_FALSE(first->isHeld());
     EXPECT_LT(first->revision(), *stolen.revision);
+}
+
+// Past the loopback both sides show a certificate of one authority.
+TEST_F(MastershipTest, IsByCertificates) {
+    const std::filesystem::path folder = freshFolder();
+    const std::string make =
+        "cd " + folder.string() +
+        " && n='-newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes'"
+        " && openssl req -x509 $n -keyout ca-key.pem -out ca.pem -subj /CN=authority"
+        " && openssl req $n -keyout own-key.pem -out asked.pem -subj /CN=etcd"
+        " -addext subjectAltName=IP:127.0.0.1"
+        " && openssl x509 -req -in asked.pem -CA ca.pem -CAkey ca-key.pem -CAcreateserial"
+        " -copy_extensions copy -out own.pem";
+    ASSERT_EQ(std::system((" ( " + make + " ) >" + (folder / "log").string() + " 2>&1").c_str()),
+              0);
+    const Etcd secure(folder);
+    const Certificates shown{folder / "ca.pem", folder / "own.pem", folder / "own-key.pem"};
+    Mastership mastership({.urls = {secure.url()}, .certificates = shown}, {"desk", "one"});
+    mastership.campaign(milliseconds(0));
+    EXPECT_TRUE(comesTrue([&] { return mastership.isHeld(); }));
+    EtcdClient stranger({{secure.url()}});
+    EXPECT_THROW(static_cast<void>(stranger.grant(1)), Error) << "of an unknown authority";
+    std::filesystem::remove_all(folder);
 }
 
 TEST_F(MastershipTest, GoesOnByAnotherMember) {

@@ -60,7 +60,7 @@ TEST(Messages, haveTheBytesThatTheyAlwaysHad) {
         "0c2fc8ec7726e344", "82237231c4be6081", "1821004a010ce9ae", "d9a07501cef5a5cd",
         "8577ff43dd645d36", "79d9b76fd34295b7", "8e02d0f47cf4161a", "ffd01da1ca239d92",
         "2d3d841a32c3907b", "737676a7be02f7b2", "00a175c588369d39", "90437d35a3117237",
-        "9b9dac21361f4714"};
+        "9b9dac21361f4714", "4699894d539ea8e1", "8a47fc93c7075f49", "1fbe8695add13fbf"};
     const std::vector<Packet> packets = samplePackets();
     ASSERT_EQ(packets.size(), digests.size());
     for (std::size_t i = 0; i < packets.size(); ++i)

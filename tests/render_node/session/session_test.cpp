@@ -480,8 +480,7 @@ TEST_F(SessionTest, aMasterOfAnOlderLeaseIsNotHeard) {
         message.set_lease_revision(lease);
         return message;
     };
-    v1::Envelope newer = test::dismissed("");
-    newer.mutable_pong();
+    v1::Envelope newer = test::pong(1, 2);
     newer.set_lease_revision(20);
     master_.say(newer);
     master_.say(farewellBy(19));
