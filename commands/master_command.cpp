@@ -425,19 +425,28 @@ standby::FollowerOptions followerOptions(const config::Rig& rig,
                 }};
 }
 
+// How long nobody may have been the master before this machine is; nothing: for ever. A standby
+// with the world of the last master comes first; one that has not caught up with a new master
+// waits.
+std::optional<std::chrono::milliseconds> patienceOf(const standby::Follower& follower,
+                                                    const lease::Mastership& mastership,
+                                                    const MasterOptions& options) {
+    using std::chrono::milliseconds;
+    constexpr milliseconds kOfStandby{5000}, kOfMaster{300};
+    if (!options.standsBy && !follower.hasWorld()) return kOfMaster;
+    if (!follower.hasWorld()) return std::nullopt;
+    return follower.lease() == mastership.lastRevision() ? milliseconds{0} : kOfStandby;
+}
+
 // Follows the other machine until this one is the master. False: a signal ends it.
 bool standBy(standby::Follower& follower,
              lease::Mastership& mastership,
              const MasterOptions& options) {
-    using std::chrono::milliseconds;
-    // A standby in step comes first.
-    constexpr milliseconds kPatience{300};
     std::atomic<bool> isStopped = false;
     const cli::SignalWatch watch([&] { isStopped = true; });
     while (mastership.revision() == 0 && !isStopped) {
         follower.turn();
-        const auto patience = options.standsBy ? std::nullopt : std::optional(kPatience);
-        mastership.campaign(follower.hasWorld() ? std::optional(milliseconds{0}) : patience);
+        mastership.campaign(patienceOf(follower, mastership, options));
         options.service->alive(follower.tick().value);
     }
     return !isStopped;

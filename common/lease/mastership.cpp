@@ -99,6 +99,7 @@ void Mastership::sayTrouble(const std::string& problem) {
 }
 
 void Mastership::sayHolder(const std::optional<LeaseHolder>& holder) {
+    if (holder) lastRevision_ = holder->revision;
     const std::lock_guard lock(mutex_);
     master_ = holder ? holder->name : "";
 }

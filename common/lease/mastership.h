@@ -50,6 +50,8 @@ class Mastership {
     void resign();
     // The name of the master; empty where there is none or etcd does not answer.
     [[nodiscard]] std::string master() const;
+    // The lease of the last master that was seen; 0: of none.
+    [[nodiscard]] std::uint64_t lastRevision() const { return lastRevision_; }
 
   private:
     static constexpr std::int64_t kNever = -1;
@@ -76,7 +78,7 @@ class Mastership {
     std::int64_t freeSinceNs_ = 0;  // 0: somebody held it
     std::atomic<std::int64_t> patienceNs_ = kNever;
     std::atomic<bool> isLost_ = false;
-    std::atomic<std::uint64_t> revision_ = 0;
+    std::atomic<std::uint64_t> revision_ = 0, lastRevision_ = 0;
     std::atomic<std::int64_t> heldUntilNs_ = 0;
     mutable std::mutex mutex_;
     std::condition_variable changed_;

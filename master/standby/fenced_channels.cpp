@@ -7,6 +7,16 @@
 
 namespace aquarama::standby {
 
+bool FencedChannels::isMute() const {
+    return mastership_.revision() != 0 && !mastership_.isHeld();
+}
+
+std::optional<net::FromPeer> FencedChannels::receiveControl() {
+    auto from = channels_->receiveControl();
+    while (from && isMute()) from = channels_->receiveControl();
+    return from;
+}
+
 // A packet is a message of protobuf: a field before it is a field of it.
 std::optional<net::ByteVector> FencedChannels::withLease(net::ByteView bytes) const {
     const std::uint64_t revision = mastership_.revision();

@@ -24,9 +24,8 @@ class FencedChannels final : public net::MasterChannels {
 
     void sendControl(const net::PeerId& peer, net::ByteView bytes) override;
     void publishState(net::ByteView bytes) override;
-    [[nodiscard]] std::optional<net::FromPeer> receiveControl() override {
-        return channels_->receiveControl();
-    }
+    // What comes while it says nothing is not heard either: it could not be answered.
+    [[nodiscard]] std::optional<net::FromPeer> receiveControl() override;
     [[nodiscard]] std::size_t discardNoise() override { return channels_->discardNoise(); }
     void wait(net::Duration atMost) override { channels_->wait(atMost); }
     void wake() override { channels_->wake(); }
@@ -36,6 +35,7 @@ class FencedChannels final : public net::MasterChannels {
     [[nodiscard]] std::string stateAddress() const override { return channels_->stateAddress(); }
 
   private:
+    [[nodiscard]] bool isMute() const;
     // The packet with the lease; nothing where it must not be sent.
     [[nodiscard]] std::optional<net::ByteVector> withLease(net::ByteView bytes) const;
 

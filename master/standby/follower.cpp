@@ -85,7 +85,11 @@ void Follower::follow(net::Moment now) {
 // Anything else: the master prepares.
 void Follower::read(const v1::Envelope& message) {
     lastHeard_ = net::monotonicNow();
-    if (message.has_journalled()) return take(message.journalled());
+    if (message.has_journalled()) {
+        take(message.journalled());
+        if (stream_ != 0) lease_ = message.lease_revision();
+        return;
+    }
     if (message.has_refusal() && refusal_ != message.refusal().reason()) {
         refusal_ = message.refusal().reason();
         logError("the master refuses the standby {}: {}", options_.machine, refusal_);

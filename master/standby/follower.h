@@ -45,6 +45,8 @@ class Follower {
     void turn();
     // Whether it may take over: it has the world of a show that has not ended.
     [[nodiscard]] bool hasWorld() const { return world_ && !isOver_; }
+    // The lease of the master whose world it has; 0 without one.
+    [[nodiscard]] std::uint64_t lease() const { return lease_; }
     // The tick of its world; 0 without one.
     [[nodiscard]] Tick tick() const { return world_ ? world_->tick() : Tick{}; }
 
@@ -81,7 +83,7 @@ class Follower {
     wire::Packet beginning_;  // of the stream's recording, without its save
     wire::Packet buffer_;     // of a piece that goes on
     std::deque<wire::RecordedHash> expected_;
-    std::uint64_t stream_ = 0, nextPart_ = 0, saidParts_ = 0;
+    std::uint64_t stream_ = 0, nextPart_ = 0, saidParts_ = 0, lease_ = 0;
     Tick known_;  // up to it all inputs are known
     FollowedClock clock_;
     bool isOver_ = false, wasInStep_ = false;

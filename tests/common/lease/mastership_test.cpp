@@ -185,6 +185,7 @@ TEST_F(MastershipTest, IsOfOneAndPassesOn) {
     ASSERT_TRUE(comesTrue([&] { return first->isHeld(); }));
     const auto second = candidate("second");
     ASSERT_TRUE(comesTrue([&] { return second->master() == "first"; }));
+    EXPECT_EQ(second->lastRevision(), first->revision());
     std::this_thread::sleep_for(milliseconds(1500));  // longer than the lease
     EXPECT_TRUE(first->isHeld());
     EXPECT_FALSE(second->isHeld());
