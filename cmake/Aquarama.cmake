@@ -111,6 +111,7 @@ function(aquarama_write_version program)
       "GLM glm::glm . glm_VERSION" "Highway hwy::hwy common hwy_VERSION"
       "libepoxy PkgConfig::EPOXY render_node EPOXY_VERSION"
       "libpng PNG::PNG common PNG_VERSION_STRING" "libjpeg-turbo PkgConfig::TURBOJPEG render_node TURBOJPEG_VERSION"
+      "libcurl CURL::libcurl common/lease CURL_VERSION_STRING"
       "liblo PkgConfig::LIBLO common/osc LIBLO_VERSION" "libqrencode PkgConfig::QRENCODE guests QRENCODE_VERSION"
       "OLA PkgConfig::OLA console/cues OLA_VERSION"
       "libzip PkgConfig::LIBZIP common/formats LIBZIP_VERSION"

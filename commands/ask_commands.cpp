@@ -191,6 +191,10 @@ double shareIn(const SetOptions& options) {
 // What each word of WHAT sets in an order.
 using Setter = void (*)(const SetOptions&, v1::Order&);
 const std::map<std::string, Setter> kSetters{
+    {"master",
+     [](const SetOptions& options, v1::Order& order) {
+         order.mutable_change_master()->set_machine(legible(options.value));
+     }},
     {"restart",
      [](const SetOptions& options, v1::Order& order) {
          order.mutable_restart()->set_channel(legible(options.value));
@@ -263,7 +267,7 @@ void addSet(CommandLine& line) {
         .add_option("WHAT",
                     options.what,
                     "scene, quality, pattern, colour, brightness, black, freeze, guests, drawings, "
-                    "day or restart")
+                    "day, restart or master")
         ->required()
         ->check(CLI::IsMember({"scene",
                                "quality",
@@ -275,14 +279,15 @@ void addSet(CommandLine& line) {
                                "guests",
                                "drawings",
                                "day",
-                               "restart"}));
+                               "restart",
+                               "master"}));
     command
         .add_option(
             "VALUE",
             options.value,
             "a scene's name; low, medium, high, ultra or auto; world, grid or grey; a share "
             "of colour or light, 0 to 1; on or off; a time of day, as dusk, or clock; a channel, "
-            "whose node is started again")
+            "whose node is started again; the machine that stands by")
         ->required()
         ->check(cli::plainWord());
     command.footer("What is set is kept: a master that is started again shows it.");

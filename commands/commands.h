@@ -23,10 +23,11 @@ using cli::AddedCommand;
 using cli::CommandLine;
 
 // Each adds one command, in the order of the program's help, which says what the command does.
-void addRun(CommandLine& line);     // a show on this machine
-void addReplay(CommandLine& line);  // a recorded one
-void addMaster(CommandLine& line);  // the master alone
-void addNode(CommandLine& line);    // hands over to aquarama-node
+void addRun(CommandLine& line);      // a show on this machine
+void addReplay(CommandLine& line);   // a recorded one
+void addMaster(CommandLine& line);   // the master alone
+void addStandby(CommandLine& line);  // the master that takes over
+void addNode(CommandLine& line);     // hands over to aquarama-node
 void addKeyCommands(CommandLine& line);
 void addDoctor(CommandLine& line);
 void addStatus(CommandLine& line);

@@ -83,6 +83,7 @@ std::vector<std::pair<std::string, KeyRole>> holdersOf(const config::Rig& rig) {
     for (const KeyRole role :
          {KeyRole::Watcher, KeyRole::Visitor, KeyRole::Operator, KeyRole::Crew, KeyRole::Guests})
         holders.emplace_back(config::nameOf(role), role);
+    if (rig.standby) holders.emplace_back(config::nameOf(KeyRole::Standby), KeyRole::Standby);
     return holders;
 }
 

@@ -3,8 +3,11 @@
 // wall.
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -25,8 +28,10 @@
 #include "common/cli/command_line.h"
 #include "common/cli/outputs.h"
 #include "common/config/hours.h"
+#include "common/config/keys.h"
 #include "common/config/rig.h"
 #include "common/config/scene.h"
+#include "common/lease/mastership.h"
 #include "common/net/channels.h"
 #include "common/wall/wall.h"
 #include "common/wire/recording.h"
@@ -35,6 +40,9 @@
 #include "master/journal/journalled_world.h"
 #include "master/simulation/living_world.h"
 #include "master/simulation/recorded_world.h"
+#include "master/standby/fenced_channels.h"
+#include "master/standby/follower.h"
+#include "master/supervisor/children.h"
 
 namespace aquarama {
 
@@ -47,8 +55,12 @@ struct MasterOptions {
     supervisor::ShowOptions show;
     bool lockstep = false;
     bool resume = false;
-    std::shared_ptr<LogFile> log;                 // only of a live show
+    bool standsBy = false;         // it becomes the master of a show alone that it has followed
+    std::shared_ptr<LogFile> log;  // only of a live show
     machine::ServiceNotifier* service = nullptr;  // null: nobody is notified
+    // As the conductor's; null: of a rig without a standby.
+    lease::Mastership* mastership = nullptr;
+    std::string machine = {};
 };
 
 // The quality; empty: the nodes measure which one they can draw. In lockstep no clock is read, so
@@ -184,6 +196,10 @@ conductor::ConductorOptions conductorOptions(const config::Rig& rig, const Maste
     conductor.traceDirectory = options.show.traceFolder;
     conductor.log = options.log.get();
     conductor.service = options.service;
+    if (options.mastership == nullptr) return conductor;
+    conductor.machine = options.machine;
+    conductor.isSuperseded = [leads = options.mastership] { return leads->isLost(); };
+    conductor.resign = [leads = options.mastership] { leads->resign(); };
     conductor.guestsKey = guestsKeyOf(rig, options.show);
     conductor.hoursAt = config::consoleFolderOf(options.show.rigPath) / config::kHoursFile;
     if (!rig.files.empty()) conductor.looks.changedRig = RigFileWatch(rig, options.show.rigPath);
@@ -305,7 +321,23 @@ JournalPlace placeOfJournal(const MasterOptions& options) {
     }
 }
 
-// Shows a new world, or the one of the show's journal.
+// Makes the worlds of other scenes, in the journal where there is one.
+auto worldsOf(const config::Rig& rig,
+              const supervisor::ShowOptions& options,
+              const JournalPlace& place) {
+    return [rig, place, options](const std::string& scene) {
+        simulation::Assets next =
+            simulation::readAssets(sceneFile(rig, options.rigPath, scene), choiceOf(rig, options));
+        MadeWorld made = makeWorld(next, place, journal::TimeAway::LeftOut);
+        const auto traits = made.made->world().traits();
+        return conductor::NextWorld{std::move(next.bytes),
+                                    {traits.begin(), traits.end()},
+                                    std::move(made.simulation),
+                                    std::move(made.journal)};
+    };
+}
+
+// Shows a new world, or the one of the show's journal. A show in lockstep keeps no journal.
 void showNew(const config::Rig& rig,
              const MasterOptions& options,
              std::unique_ptr<net::MasterChannels> channels) {
@@ -327,16 +359,7 @@ void showNew(const config::Rig& rig,
     const MadeWorld world = makeWorld(assets, place, away);
     preparation.reset();
     conducting.journal = world.journal;
-    conducting.looks.makeWorld = [rig, place, show = options.show](const std::string& scene) {
-        simulation::Assets next =
-            simulation::readAssets(sceneFile(rig, show.rigPath, scene), choiceOf(rig, show));
-        MadeWorld made = makeWorld(next, place, TimeAway::LeftOut);
-        const auto traits = made.made->world().traits();
-        return conductor::NextWorld{std::move(next.bytes),
-                                    {traits.begin(), traits.end()},
-                                    std::move(made.simulation),
-                                    std::move(made.journal)};
-    };
+    conducting.looks.makeWorld = worldsOf(rig, options.show, place);
     show(rig, conducting, {assets.bytes, *world.made, *world.simulation}, std::move(channels));
 }
 
@@ -372,6 +395,152 @@ void showAgain(const config::Rig& rig,
     show(rig, conducting, {recording.assets, world, replayed}, std::move(channels), &running);
 }
 
+// Whether a show has a standby. One that keeps no journal has none.
+bool hasStandby(const config::Rig& rig, const MasterOptions& options) {
+    return rig.standby && !options.lockstep && options.show.recordPath.empty() &&
+           options.show.replayPath.empty();
+}
+
+// Where etcd is, and the files for it, which lie beside the keys of the rig. Throws Error where one
+// is missing.
+lease::Members membersOf(const config::Rig& rig, const MasterOptions& options) {
+    lease::Members members{.urls = rig.standby->etcd};
+    const auto isSecure = [](const std::string& url) { return url.starts_with("https"); };
+    if (std::ranges::none_of(members.urls, isSecure)) return members;
+    const fs::path folder = options.show.keyFolder.empty()
+                                ? config::keyFolderOf(options.show.rigPath)
+                                : fs::path(options.show.keyFolder);
+    const lease::Certificates files{
+        folder / "etcd-ca.pem", folder / "etcd.pem", folder / "etcd-key.pem"};
+    for (const fs::path& file : {files.authority, files.own, files.ownKey})
+        if (!fs::is_regular_file(file))
+            throw Error(file.string() +
+                        ": is not there, and etcd is past this machine: put there "
+                        "the certificates by which both know each other");
+    config::requirePrivate(files.ownKey);
+    members.certificates = files;
+    return members;
+}
+
+// How this machine follows the other one.
+standby::FollowerOptions followerOptions(const config::Rig& rig,
+                                         const MasterOptions& options,
+                                         const std::string& machine) {
+    const std::string master = options.standsBy ? rig.controlAddress : rig.standby->controlAddress;
+    std::optional<net::PeerKeys> keys;
+    if (config::needsKeys(rig)) {
+        const fs::path folder = options.show.keyFolder.empty()
+                                    ? config::keyFolderOf(options.show.rigPath)
+                                    : fs::path(options.show.keyFolder);
+        const config::KeyFile own = config::readKeyFile(
+            config::keyFileIn(folder, config::nameOf(config::KeyRole::Standby)));
+        keys = net::PeerKeys{own.masterKey, {own.publicKey, own.secretKey}};
+    }
+    return {.machine = machine,
+            .connect = [master, keys] { return net::connectNode(master, {}, keys); },
+            .journal = wire::journalOf(options.show.rigPath),
+            .assets =
+                [rig, show = options.show](const std::string& scene, std::uint32_t seed) {
+                    simulation::AssetChoice choice = choiceOf(rig, show);
+                    choice.seed = seed;
+                    choice.fish = show.fish;
+                    return simulation::readAssets(sceneFile(rig, show.rigPath, scene), choice);
+                }};
+}
+
+// How long nobody may have been the master before this machine is; nothing: for ever. A standby
+// with the world of the last master comes first; one that has not caught up with a new master
+// waits.
+std::optional<std::chrono::milliseconds> patienceOf(const standby::Follower& follower,
+                                                    const lease::Mastership& mastership,
+                                                    const MasterOptions& options) {
+    using std::chrono::milliseconds;
+    constexpr milliseconds kOfStandby{5000}, kOfMaster{300};
+    if (!options.standsBy && !follower.hasWorld()) return kOfMaster;
+    if (!follower.hasWorld()) return std::nullopt;
+    return follower.lease() == mastership.lastRevision() ? milliseconds{0} : kOfStandby;
+}
+
+// Follows the other machine until this one is the master. False: a signal ends it.
+bool standBy(standby::Follower& follower,
+             lease::Mastership& mastership,
+             const MasterOptions& options) {
+    std::atomic<bool> isStopped = false;
+    const cli::SignalWatch watch([&] { isStopped = true; });
+    while (mastership.revision() == 0 && !isStopped) {
+        follower.turn();
+        mastership.campaign(patienceOf(follower, mastership, options));
+        options.service->alive(follower.tick().value);
+    }
+    return !isStopped;
+}
+
+// What was set is kept on this machine's disk as well.
+void keepShow(const conductor::ConductorOptions& conducting) {
+    try {
+        wire::keepShow(conducting.keptAt, conducting.kept);
+    } catch (const Error& problem) {
+        logWarning("{}", problem.what());
+    }
+}
+
+// The show of the world that was followed.
+void showTakenOver(const config::Rig& rig,
+                   const MasterOptions& options,
+                   standby::Follower::TakenOver taken,
+                   const JournalPlace& place,
+                   std::unique_ptr<net::MasterChannels> channels) {
+    conductor::ConductorOptions conducting = conductorOptions(rig, options);
+    wire::apply(conducting.wanted, taken.show.wanted);
+    conducting.kept = taken.show.kept;
+    keepShow(conducting);
+    conducting.journal = taken.world->journal().report();
+    conducting.looks.makeWorld = worldsOf(rig, options.show, place);
+    const Shown shown{taken.assets.bytes, taken.world->living(), *taken.world};
+    show(rig, conducting, shown, std::move(channels));
+}
+
+// Starts this program anew, as it was started: as a standby of the machine that is the master now.
+[[noreturn]] void startAnew() {
+    std::ifstream file("/proc/self/cmdline");
+    std::vector<std::string> arguments;
+    for (std::string argument; std::getline(file, argument, '\0');)
+        arguments.push_back(std::move(argument));
+    arguments.erase(arguments.begin());
+    supervisor::become({supervisor::ownProgram(), arguments});
+}
+
+// Which of both machines is the master is decided by the lease; the other one stands by.
+void showByLease(const config::Rig& rig,
+                 const MasterOptions& options,
+                 std::unique_ptr<net::MasterChannels> channels) {
+    const std::string machine = options.standsBy ? rig.standby->machine : "main";
+    std::optional<lease::Mastership> mastership;
+    mastership.emplace(membersOf(rig, options), lease::Candidate{rig.name, machine});
+    auto fenced = std::make_unique<standby::FencedChannels>(std::move(channels), *mastership);
+    std::optional<conductor::Preparation> answers(std::in_place, *fenced);
+    answers->say("machine " + machine + " stands by");
+    const fs::path folder = wire::journalOf(options.show.rigPath);
+    JournalPlace place{folder, std::make_shared<journal::FolderLock>(folder), {}};
+    standby::Follower follower(followerOptions(rig, options, machine));
+    options.service->ready();
+    logInfo("machine {} stands by", machine);
+    if (!standBy(follower, *mastership, options)) return;
+    answers.reset();
+    MasterOptions leading = options;
+    leading.mastership = &*mastership;
+    leading.machine = machine;
+    if (follower.hasWorld()) {
+        showTakenOver(rig, leading, follower.takeOver(), place, std::move(fenced));
+    } else {
+        place.lock.reset();  // for showNew()
+        showNew(rig, leading, std::move(fenced));
+    }
+    if (!mastership->isLost()) return;
+    mastership.reset();
+    startAnew();
+}
+
 // Opens the log of this rig's shows, which also gets the master's own lines. Where it cannot be
 // written, the show runs without it.
 std::shared_ptr<LogFile> openLog(const std::string& rigPath) {
@@ -389,6 +558,15 @@ std::shared_ptr<LogFile> openLog(const std::string& rigPath) {
     }
 }
 
+// Throws Error also where the rig names no standby and this is to be one.
+std::unique_ptr<net::MasterChannels> bindOwn(const config::Rig& rig, const MasterOptions& options) {
+    const auto keys = masterKeysOf(rig, options.show);
+    if (!options.standsBy) return net::bindMaster(rig.controlAddress, rig.stateAddress, {}, keys);
+    if (!rig.standby)
+        throw Error(options.show.rigPath + ": names no standby: write standby { ... } in it");
+    return net::bindMaster(rig.standby->controlAddress, rig.standby->stateAddress, {}, keys);
+}
+
 // Binds the addresses before the world is made, which takes seconds, or minutes at the first start.
 // So a second master is refused at once, and requests are answered meanwhile.
 void runMaster(const MasterOptions& options) {
@@ -399,13 +577,15 @@ void runMaster(const MasterOptions& options) {
     cli::requireFolder("--trace", options.show.traceFolder);
     if (!options.show.recordPath.empty()) simulation::requireNewRecording(options.show.recordPath);
     cli::requireFile("--record", options.show.recordPath);
-    auto channels =
-        net::bindMaster(rig.controlAddress, rig.stateAddress, {}, masterKeysOf(rig, options.show));
+    auto channels = bindOwn(rig, options);
     MasterOptions telling = options;
     telling.service = &service;
     if (!options.lockstep) telling.log = openLog(options.show.rigPath);
     service.beginLongWork("making the world");
-    (options.show.replayPath.empty() ? showNew : showAgain)(rig, telling, std::move(channels));
+    const auto showThis = hasStandby(rig, options)          ? showByLease
+                          : options.show.replayPath.empty() ? showNew
+                                                            : showAgain;
+    showThis(rig, telling, std::move(channels));
     setLogListener({});
 }
 
@@ -428,6 +608,23 @@ void addMaster(CommandLine& line) {
         ->excludes("--seed")
         ->excludes("--scene")
         ->excludes("--fish");
+}
+
+void addStandby(CommandLine& line) {
+    const auto [command, options] = line.add<MasterOptions>(
+        "standby",
+        "simulate along with the master of a rig, and take over when it dies: aquarama standby RIG",
+        runMaster);
+    options.standsBy = options.resume = true;
+    command.add_option("RIG", options.show.rigPath, "the rig's file")->required();
+    command
+        .add_option("--fish",
+                    options.show.fish,
+                    "number of fish of the first species, as the master was told")
+        ->check(cli::wholeNumber(0, kMostFish));
+    command.add_option("--keys",
+                       options.show.keyFolder,
+                       "folder of the rig's keys, instead of the user's (aquarama keys)");
 }
 
 }  // namespace aquarama

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/net/channels.h"
 #include "common/wire/messages.h"
@@ -19,7 +20,10 @@ class RequestClient {
     // Throws Error where the address is malformed.
     explicit RequestClient(const std::string& controlAddress,
                            const std::optional<net::PeerKeys>& keys = {})
-        : address_(controlAddress), channels_(net::connectNode(controlAddress, {}, keys)) {}
+        : RequestClient(std::vector{controlAddress}, keys) {}
+    // To the one that is the master of several machines; all are asked.
+    RequestClient(const std::vector<std::string>& controlAddresses,
+                  const std::optional<net::PeerKeys>& keys);
 
     // The newest answer; the question is repeated until there is one, since the connection may not
     // be there yet. Throws Error where nobody answers within two seconds, and at once where the
@@ -52,9 +56,12 @@ class RequestClient {
 
   private:
     v1::Envelope ask(const v1::Envelope& question, v1::Envelope::MessageCase reply);
+    void send(net::ByteView packet);
+    // The newest answer that has come within this time.
+    std::optional<v1::Envelope> hear(v1::Envelope::MessageCase reply, net::Duration atMost);
 
-    std::string address_;
-    std::unique_ptr<net::NodeChannels> channels_;
+    std::string addresses_;  // for messages
+    std::vector<std::unique_ptr<net::NodeChannels>> channels_;
     std::uint64_t run_ = 0;
     std::string preparing_;
 };

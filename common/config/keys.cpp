@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-static_assert(v1::KeyFile::GUESTS - v1::KeyFile::MASTER == static_cast<int>(KeyRole::Guests));
+static_assert(v1::KeyFile::STANDBY - v1::KeyFile::MASTER == static_cast<int>(KeyRole::Standby));
 
 constexpr std::uint32_t kVersion = 1;
 constexpr std::string_view kEnding = ".key";
@@ -34,7 +34,8 @@ void checkKey(const TextReader& file,
     file.refuse(in, field, field + " is no key of 40 characters: copy the file again");
 }
 
-// What others than the owner could read is no secret any more.
+}  // namespace
+
 void requirePrivate(const fs::path& path) {
     struct stat status {};
     if (stat(path.c_str(), &status) == 0 && (status.st_mode & 077U) != 0)
@@ -42,8 +43,6 @@ void requirePrivate(const fs::path& path) {
                     ": others than its owner may read this key: chmod 600 it, and " +
                     "make a new one (aquarama keys rotate) if somebody may have");
 }
-
-}  // namespace
 
 KeyFile readKeyFile(const fs::path& path) {
     requirePrivate(path);

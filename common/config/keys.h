@@ -12,10 +12,19 @@
 namespace aquarama::config {
 
 // What the holder of a key may say to the master (conductor::maySay()); in the schema's order.
-enum class KeyRole : std::uint8_t { Master, Node, Watcher, Visitor, Operator, Crew, Guests };
+enum class KeyRole : std::uint8_t {
+    Master,
+    Node,
+    Watcher,
+    Visitor,
+    Operator,
+    Crew,
+    Guests,
+    Standby
+};
 // As command lines, logs and key files name them.
-inline constexpr std::array<std::string_view, 7> kRoleNames{
-    "master", "node", "watcher", "visitor", "operator", "crew", "guests"};
+inline constexpr std::array<std::string_view, 8> kRoleNames{
+    "master", "node", "watcher", "visitor", "operator", "crew", "guests", "standby"};
 [[nodiscard]] constexpr std::string_view nameOf(KeyRole role) {
     return kRoleNames.at(static_cast<std::size_t>(role));
 }
@@ -34,6 +43,8 @@ struct KeyFile {
 // Throws Error where it cannot be read, is malformed, or others than its owner may read it.
 [[nodiscard]] KeyFile readKeyFile(const std::filesystem::path& path);
 [[nodiscard]] KeyFile parseKeyFile(const std::string& text, const std::string& source);
+// Throws Error where others than its owner may read a secret.
+void requirePrivate(const std::filesystem::path& path);
 // Readable by its owner only, whole or not at all. Throws Error where it cannot be written.
 void writeKeyFile(const std::filesystem::path& path, const KeyFile& key);
 

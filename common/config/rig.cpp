@@ -77,6 +77,13 @@ Screen screenOf(const TextReader& file, const v1::Screen& in) {
     return screen;
 }
 
+Standby standbyOf(const v1::Standby& in) {
+    return {.machine = in.machine(),
+            .controlAddress = in.control(),
+            .stateAddress = in.state(),
+            .etcd = {in.etcd().begin(), in.etcd().end()}};
+}
+
 Timing timingOf(const TextReader& file, const v1::Timing& in) {
     const Timing timing{.refreshHertz = in.refresh_hz(),
                         .presentDeadlineSeconds = in.has_present_deadline_s()
@@ -265,6 +272,7 @@ void takeScreen(const TextReader& file, const std::string& source, const v1::Rig
     const auto isPanel = [](const Channel& channel) { return channel.panel.has_value(); };
     if (std::ranges::all_of(rig.channels, isPanel)) {
         rig.screen.shape = ScreenShape::Panels;
+        rig.screen.hidesBezels = in.bezels() == v1::Rig::HIDDEN;
         if (in.has_screen()) file.refuse(in.screen(), "all channels are panels: remove the screen");
         return;
     }
@@ -334,10 +342,10 @@ Rig parseRig(const std::string& text, const std::string& source) {
     TextReader file(text, source, in);
     file.check();
     checkNetwork(file, in.network());
+    if (in.has_standby()) checkStandby(file, in);
     Rig rig{.text = text,
             .name = in.name(),
             .screen = {},
-            .hidesBezels = in.bezels() == v1::Rig::HIDDEN,
             .panoramaPixels = sizeOf(in.panorama()),
             .controlAddress = in.network().control(),
             .stateAddress = in.network().state(),
@@ -363,6 +371,7 @@ Rig parseRig(const std::string& text, const std::string& source) {
     for (const v1::Channel& channel : in.channels())
         rig.channels.push_back(channelOf(file, channel, rig.stereo));
     takeVisitors(file, in, rig);
+    if (in.has_standby()) rig.standby = standbyOf(in.standby());
     takeScreen(file, source, in, rig);
     takeCalibration(file, in, rig);
     takeAdjustments(file, source, in, rig);

@@ -63,6 +63,7 @@ struct Screen {
     double distanceMetres = 0;  // flat
     double tiltRadians = 0;     // about +X, the front going down; not of measured ones and panels
     std::string meshFile = {};  // measured: name in Rig::files
+    bool hidesBezels = false;   // panels
     SourcePlace place = {};
 };
 
@@ -198,6 +199,13 @@ struct TouchedSurface {
     std::optional<double> peopleReachMetres = {};
 };
 
+// A second machine that takes over when the master's machine dies.
+struct Standby {
+    std::string machine;                       // as people know it
+    std::string controlAddress, stateAddress;  // where it listens once it is the master
+    std::vector<std::string> etcd;             // URLs of the members of etcd
+};
+
 // Where a rig's file says some of its values, for errors.
 struct RigPlaces {
     SourcePlace scene, sweetSpot, touch;
@@ -208,7 +216,6 @@ struct Rig {
     std::string text;  // of the file, as it was read: the nodes are sent it
     std::string name;
     Screen screen;
-    bool hidesBezels = false;     // of panels
     glm::ivec2 panoramaPixels{};  // the unrolled wall, for the composed pictures
     std::string controlAddress;   // "tcp://127.0.0.1:7400": ROUTER
     std::string stateAddress;     // "tcp://127.0.0.1:7401": PUB
@@ -229,6 +236,7 @@ struct Rig {
     std::optional<Guests> guests = {};
     std::optional<TouchedSurface> touch = {};
     std::optional<DrawingRules> drawings = {};
+    std::optional<Standby> standby = {};
     RigPlaces places = {};
     // Measured screens, wall files and adjustments, whole, by the name that the rig has for them.
     std::map<std::string, FileContent> files;

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/config/rig_network.h"
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "common/config/rig_parts.h"
 
@@ -77,6 +81,54 @@ void checkNetwork(const TextReader& file, const v1::Network& in) {
     if (hostOf(in.watch()) != hostOf(in.control()) || portOf(in.watch()) == portOf(in.control()) ||
         portOf(in.watch()) == portOf(in.state()))
         file.refuse(in, "watch", "watch needs the host of control and a port of its own");
+}
+
+namespace {
+
+bool isPort(std::string_view text) {
+    const int port = wholeNumber(text).value_or(0);
+    return port >= 1 && port <= 65535;
+}
+
+// Why a member of etcd cannot be reached so; empty where it can.
+std::string objectionTo(const std::string& url) {
+    const std::size_t slashes = url.find("://");
+    const std::size_t colon = url.rfind(':');
+    const std::string_view text = url, scheme = text.substr(0, slashes);
+    if (colon <= slashes || (scheme != "http" && scheme != "https"))
+        return "is no address: write http://127.0.0.1:2379, or https://192.168.7.1:2379";
+    const std::string_view host = text.substr(slashes + 3, colon - slashes - 3);
+    if (!isPort(text.substr(colon + 1))) return "needs a port from 1 to 65535";
+    if (!isHost(host)) return "needs the number of one network card, as https://192.168.7.1:2379";
+    if (scheme == "http" && !isLoopback(host))
+        return "reaches past this machine: write https, and give both certificates";
+    return {};
+}
+
+}  // namespace
+
+void checkStandby(const TextReader& file, const v1::Rig& in) {
+    const v1::Standby& standby = in.standby();
+    const std::vector<std::string> taken{in.network().control(), in.network().state()};
+    for (const auto& [field, address] :
+         {std::pair("control", standby.control()), std::pair("state", standby.state())}) {
+        checkAddress(file, standby, field, address);
+        if (isLoopback(hostOf(address)) != isLoopback(hostOf(in.network().control())))
+            file.refuse(standby,
+                        field,
+                        std::string(field) +
+                            " of standby and of network: only one of them "
+                            "reaches past this machine");
+        if (std::ranges::find(taken, address) != taken.end())
+            file.refuse(standby, field, std::string(field) + " is the master's own address");
+    }
+    if (standby.control() == standby.state())
+        file.refuse(standby, "state", "state and control share one port: give each its own");
+    for (int i = 0; i < standby.etcd_size(); ++i) {
+        const std::string objection = objectionTo(standby.etcd(i));
+        if (!objection.empty())
+            file.refuse(standby, "etcd", "etcd \"" + standby.etcd(i) + "\" " + objection, i);
+    }
 }
 
 }  // namespace aquarama::config

@@ -24,5 +24,7 @@ void checkAddress(const TextReader& file,
                   const std::string& field,
                   const std::string& address);
 void checkNetwork(const TextReader& file, const v1::Network& in);
+// After the rig's network was checked.
+void checkStandby(const TextReader& file, const v1::Rig& in);
 
 }  // namespace aquarama::config

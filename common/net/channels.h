@@ -107,6 +107,8 @@ class NodeChannels {
 
 // Makes a fresh connection to the master.
 using Connect = std::function<std::unique_ptr<NodeChannels>()>;
+// Makes one to the master at an address.
+using ConnectTo = std::function<std::unique_ptr<NodeChannels>(const std::string&)>;
 
 // Throws Error where an address such as "tcp://127.0.0.1:7400" is malformed, before a socket sees
 // it.

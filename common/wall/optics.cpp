@@ -158,7 +158,7 @@ std::unique_ptr<const Optics> makeOptics(const config::Rig& rig,
                                          const ScreenSurface& screen,
                                          const WallFiles& files) {
     const config::Channel& what = rig.channels.at(channel);
-    if (what.panel) return std::make_unique<PanelOptics>(what, rig.hidesBezels);
+    if (what.panel) return std::make_unique<PanelOptics>(what, rig.screen.hidesBezels);
     if (what.wallFile)
         return makeCalibratedOptics(rig, channel, screen, files.at(what.wallFile->file));
     return std::make_unique<ProjectorOptics>(what, screen);

@@ -231,7 +231,7 @@ class Panels final : public ScreenSurface {
   public:
     explicit Panels(const config::Rig& rig) : view_{rig.sweetSpotMetres} {
         for (const config::Channel& channel : rig.channels)
-            panels_.emplace_back(*channel.panel, rig.hidesBezels);
+            panels_.emplace_back(*channel.panel, rig.screen.hidesBezels);
         view_.enclose(pointsInside());
     }
 

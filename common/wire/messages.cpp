@@ -176,6 +176,14 @@ Packet encode(std::uint64_t session, v1::Envelope envelope) {
     return packet;
 }
 
+Packet leaseField(std::uint64_t revision) {
+    v1::Envelope envelope;
+    envelope.set_lease_revision(revision);
+    Packet field(envelope.ByteSizeLong());
+    envelope.SerializeToArray(field.data(), static_cast<int>(field.size()));
+    return field;
+}
+
 std::optional<v1::Envelope> decode(std::span<const std::byte> packet) {
     const pb::LogSilencer silencer;  // protobuf would log a line for each text that is no UTF-8
     v1::Envelope envelope;

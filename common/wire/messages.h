@@ -49,6 +49,9 @@ inline constexpr std::size_t kMostPacketBytes = std::size_t{64} << 20U;  // two 
 // The packet of a message of the master's run `session`; 0 from a node that has not been welcomed.
 [[nodiscard]] Packet encode(std::uint64_t session, v1::Envelope envelope);
 
+// What precedes a packet of a master by a lease of etcd: the field Envelope.lease_revision.
+[[nodiscard]] Packet leaseField(std::uint64_t revision);
+
 // The message in a packet, within all bounds; empty where it is truncated, malformed or out of
 // bounds. Of a state only the outside is checked, its content by readState(). Takes no more memory
 // than a small multiple of the packet's own size. A hello of another major version is accepted: its

@@ -113,6 +113,7 @@ Conductor::Conductor(const config::Rig& rig,
                     *this,
                     net::monotonicNow()},
       visitors_{sender_, [this] { channels_->wake(); }},
+      standby_{rig.standby.has_value() && !isLockstep(), sender_},
       simulation_{&simulation},
       windowsEndShow_{rig.windowsEndShow} {
     visitors_.enter(nullptr, static_cast<std::uint32_t>(school.size()));
@@ -121,7 +122,7 @@ Conductor::Conductor(const config::Rig& rig,
 Conductor::~Conductor() = default;
 
 void Conductor::stop() {
-    stopped_ = true;
+    isOver_ = true;
     channels_->wake();
 }
 
@@ -132,13 +133,15 @@ ShowReport Conductor::run() {
             "docs/cluster.md says how to allow it");
     startSimulation(visitors_.fish());
     if (options_.service != nullptr) options_.service->ready();
-    while (!isOver_ && !stopped_ && !presentation_.isOver()) {
+    while (!isOver_ && !presentation_.isOver() && !options_.isSuperseded()) {
         const net::Moment now = net::monotonicNow();
         hear(now);
         visitors_.answer();
         changeShow(now);
         if (!isLockstep()) day_.turn(*simulationThread_, orders_.control().wanted().day(), now);
         presentation_.turn(now);
+        feedStandby(now);
+        if (standby_.isPromoted()) resign();
         nameMissing(now);
         const v1::WantedShow& wanted = orders_.control().wanted();
         if (gauges_.count(
@@ -154,10 +157,20 @@ ShowReport Conductor::run() {
     if (options_.service != nullptr) options_.service->stopping();
     visitors_.enter(nullptr, visitors_.fish());
     simulationThread_.reset();
-    sayFarewell();
+    if (!options_.isSuperseded()) sayFarewell();
     keeper_.finish(orders_.control().kept());
     if (!presentation_.failure().empty()) throw Error(presentation_.failure());
     return report_;
+}
+
+void Conductor::feedStandby(net::Moment now) {
+    if (!standby_.isThere()) return;
+    if (standby_.takesBeginning() && !simulationThread_->betweenTicks([](Simulation& simulation) {
+            simulation.beginFollowed();
+        }))
+        standby_.beginAgain();
+    const ShowControl& control = orders_.control();
+    standby_.turn(*simulation_, {looks_.sceneName(), control.wanted(), control.kept()}, now);
 }
 
 void Conductor::nameMissing(net::Moment now) {
@@ -182,6 +195,7 @@ void Conductor::sayFarewell() {
     net::Moment lastSaid = begin - kFarewellRepeat;
     v1::Envelope farewell;
     farewell.mutable_farewell();
+    standby_.sayFarewell();
     while (!roster_.isEmpty()) {
         const net::Moment now = net::monotonicNow();
         if (now - begin > kLongest) return;
@@ -234,6 +248,8 @@ void Conductor::take(const net::FromPeer& from, const v1::Envelope& message, net
             return tellDrawings(from.peer, message.drawings_request());
         case v1::Envelope::kOrder:
             return obey(from, message.order(), now);
+        case v1::Envelope::kFollow:
+            return standby_.hear(from.peer, message.follow(), now);
         case v1::Envelope::kPacketPart:
             return takePart(from, message.packet_part(), now);
         case v1::Envelope::kInput:
@@ -301,7 +317,7 @@ void Conductor::takeInput(const net::FromPeer& from,
     if (isGuests && !orders_.control().wanted().guests()) return countRefused(false);
     switch (input.kind()) {
         case v1::INPUT_QUIT:
-            isOver_ = isOver_ || windowsEndShow_;
+            if (windowsEndShow_) isOver_ = true;
             return countRefused(windowsEndShow_);
         case v1::INPUT_DROP_FOOD:
             return countRefused(
@@ -439,12 +455,43 @@ void Conductor::giveChunk(const net::PeerId& peer, const v1::BlobRequest& reques
 void Conductor::obey(const net::FromPeer& from, const v1::Order& order, net::Moment now) {
     const std::string user = from.user.empty() ? "somebody here" : from.user;
     v1::Envelope message;
-    *message.mutable_order_reply() = orders_.obey(user, order, presentation_.unpublished(), now);
+    *message.mutable_order_reply() =
+        order.has_change_master() ? changeMaster(user, order)
+                                  : orders_.obey(user, order, presentation_.unpublished(), now);
     if (simulationThread_ && !isLockstep())
         simulationThread_->freeze(orders_.control().wanted().freeze());
     for (const world::ReleaseHunter& called : orders_.hunters().take())
         bring(called, "a hunter does not come");
     sender_.say(from.peer, std::move(message));
+}
+
+// Whoever asks goes on asking, until the other machine says that it is done.
+v1::OrderReply Conductor::changeMaster(const std::string& user, const v1::Order& order) {
+    const std::string& wanted = order.change_master().machine();
+    v1::OrderReply reply;
+    reply.set_request(order.request());
+    reply.set_outcome(v1::OrderReply::REFUSED);
+    if (!options_.resign) {
+        reply.set_reason("the show has no standby: write standby { ... } in the rig");
+    } else if (wanted == options_.machine) {
+        reply.set_outcome(v1::OrderReply::DONE);
+    } else if (wanted != standby_.inStep()) {
+        reply.set_reason(legible(wanted, wire::kMostNameBytes) + " does not stand by" +
+                         (standby_.inStep().empty() ? "" : ", but " + standby_.inStep()));
+    } else {
+        logInfo("{} makes {} the master", user, wanted);
+        reply.set_outcome(v1::OrderReply::WAITING);
+        reply.set_reason(wanted + " takes over");
+        standby_.promote();
+    }
+    return reply;
+}
+
+// Nodes turn to the other machine at once.
+void Conductor::resign() {
+    for (const NodeSeat& seat : roster_.seats())
+        if (!seat.peer.empty()) sender_.dismiss(seat.peer, "the master changes");
+    options_.resign();
 }
 
 void Conductor::tellDrawings(const net::PeerId& peer, const v1::DrawingsRequest& request) const {
@@ -481,6 +528,7 @@ void Conductor::changeShow(net::Moment now) {
             own_ = std::move(world->simulation);
             options_.journal = std::move(world->journal);
             simulation_ = own_.get();
+            standby_.beginAgain();
             startSimulation(static_cast<std::uint32_t>(world->school.size()));
         }
         dimming_.black.reset();

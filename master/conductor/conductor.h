@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <future>
 #include <memory>
 #include <optional>
@@ -29,6 +30,7 @@
 #include "master/conductor/sender.h"
 #include "master/conductor/simulation.h"
 #include "master/conductor/simulation_thread.h"
+#include "master/conductor/standby_feed.h"
 #include "master/conductor/visitor_inputs.h"
 
 namespace aquarama::conductor {
@@ -50,6 +52,11 @@ struct ConductorOptions {
     std::shared_ptr<const JournalReport> journal;  // of the world; null: nothing is known of it
     LogFile* log = nullptr;                        // of the whole show; null: none
     machine::ServiceNotifier* service = nullptr;   // hears of every turn of the loop; null: nobody
+    // Of a rig with a standby: the name of this machine; whether another one goes on as the master,
+    // so that the show ends here and no node is told; gives up being the master.
+    std::string machine = {};
+    std::function<bool()> isSuperseded = [] { return false; };
+    std::function<void()> resign = {};
     // Lockstep: silence of a node that ends the show.
     net::Duration patience = std::chrono::seconds(60);
 };
@@ -108,6 +115,9 @@ class Conductor final : private FrameSource {
     void giveKeyframe(const net::PeerId& peer);
     void giveChunk(const net::PeerId& peer, const v1::BlobRequest& request);
     void obey(const net::FromPeer& from, const v1::Order& order, net::Moment now);
+    // The standby is to be the master from now on.
+    [[nodiscard]] v1::OrderReply changeMaster(const std::string& user, const v1::Order& order);
+    void resign();
     void tellDrawings(const net::PeerId& peer, const v1::DrawingsRequest& request) const;
     [[nodiscard]] v1::Envelope status(net::Moment now) const;
     // A packet counts as refused unless it was accepted.
@@ -116,6 +126,8 @@ class Conductor final : private FrameSource {
     // A step of the change that is under way.
     void changeShow(net::Moment now);
     void startSimulation(std::uint32_t fish);
+    // Sends the standby what there is for it.
+    void feedStandby(net::Moment now);
     // What becomes of visitors' drawings, once a second, by where the fish of a tick are.
     void turnDrawings(const Snapshot& newest);
     // Brings an input to the world; `what` is logged where too many wait already.
@@ -143,13 +155,13 @@ class Conductor final : private FrameSource {
     ShowReport report_;
     Presentation presentation_;
     VisitorInputs visitors_;
+    StandbyFeed standby_;
     Watchdog watchdog_;
     Simulation* simulation_;
     std::unique_ptr<Simulation> own_;  // simulation_, after a change of scene
     std::future<void> retiring_;       // of the world before
     bool windowsEndShow_;
-    std::atomic<bool> stopped_ = false;
-    bool isOver_ = false;
+    std::atomic<bool> isOver_ = false;
     net::Moment lastRoll_ = net::monotonicNow();  // when missing nodes were last named
     v1::Show shown_;                              // of the frame that was last published
     Dimming dimming_;

@@ -23,6 +23,11 @@ std::string Preparation::tell(const std::string& what) {
     return sentence_;
 }
 
+void Preparation::say(const std::string& sentence) {
+    const std::lock_guard lock(mutex_);
+    sentence_ = sentence;
+}
+
 // What strangers say to the state channel is thrown away here as well.
 void Preparation::run() {
     constexpr net::Duration kLongestWait = std::chrono::milliseconds(100);

@@ -24,6 +24,8 @@ class Preparation {
     // What is under way, as "capturing 3 of 7 species"; from any thread. Returns the sentence that
     // is answered.
     std::string tell(const std::string& what);
+    // Another sentence; from any thread.
+    void say(const std::string& sentence);
 
   private:
     void run();

@@ -83,6 +83,8 @@ bool maySay(const User& user, const v1::Envelope& message) {
         case config::KeyRole::Crew:
             return isQuestion(message) || message.message_case() == v1::Envelope::kInput ||
                    message.message_case() == v1::Envelope::kOrder || message.has_packet_part();
+        case config::KeyRole::Standby:
+            return message.has_follow();
         case config::KeyRole::Master:
             break;
     }

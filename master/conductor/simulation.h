@@ -68,6 +68,13 @@ struct Hunter {
     std::uint32_t at = 0;  // its place in the cast
 };
 
+// What a standby is sent of the journal.
+struct JournalPiece {
+    wire::Packet entries;  // of a recording, whole; empty: nothing has happened
+    Tick tick;             // of the world, after them
+    bool begins = false;   // with the recording's beginning and a save
+};
+
 // Called from the tick thread only.
 class Simulation {
   public:
@@ -88,6 +95,11 @@ class Simulation {
     [[nodiscard]] virtual std::vector<Hunter> hunters() const { return {}; }
     // Of all fish, by species, or of none: what their commands are coded by. They never change.
     [[nodiscard]] virtual std::vector<school::RecordedRates> recordedRates() const { return {}; }
+    // A standby begins to simulate along: followed() has all from now on, the whole world first.
+    virtual void beginFollowed() {}
+    // What the standby is to have since the last call, from any thread; nothing where it has not
+    // begun, or its beginning is not ready yet.
+    [[nodiscard]] virtual std::optional<JournalPiece> followed() { return std::nullopt; }
 };
 
 }  // namespace aquarama::conductor

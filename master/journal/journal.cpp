@@ -49,16 +49,6 @@ Digest digestOfRepertoire(const wire::SpeciesAssets& species) {
     return species.repertoireDigest ? *species.repertoireDigest : digestOf(species.repertoire);
 }
 
-// Whether both bundles make the same world. Names of files mean nothing.
-bool makeOneWorld(const wire::AssetBundle& a, const wire::AssetBundle& b) {
-    const auto isSame = [](const wire::SpeciesAssets& one, const wire::SpeciesAssets& other) {
-        return one.text == other.text && one.fish == other.fish && one.drawings == other.drawings &&
-               digestOfRepertoire(one) == digestOfRepertoire(other);
-    };
-    return a.seed == b.seed && a.scene == b.scene && a.drawingsMayBeEaten == b.drawingsMayBeEaten &&
-           std::ranges::equal(a.cast, b.cast, isSame);
-}
-
 // An error of a file in a folder, for operators: the log has the path.
 std::string withoutPath(const std::string& error, const fs::path& folder) {
     const std::size_t end = error.find(": ");
@@ -113,6 +103,15 @@ std::uint64_t bytesIn(const fs::path& folder) {
         if (!none) bytes += size;
     }
     return bytes;
+}
+
+bool makeOneWorld(const wire::AssetBundle& a, const wire::AssetBundle& b) {
+    const auto isSame = [](const wire::SpeciesAssets& one, const wire::SpeciesAssets& other) {
+        return one.text == other.text && one.fish == other.fish && one.drawings == other.drawings &&
+               digestOfRepertoire(one) == digestOfRepertoire(other);
+    };
+    return a.seed == b.seed && a.scene == b.scene && a.drawingsMayBeEaten == b.drawingsMayBeEaten &&
+           std::ranges::equal(a.cast, b.cast, isSame);
 }
 
 std::optional<LastWorld> lastWorldIn(const fs::path& folder, const wire::AssetBundle& assets) {

@@ -34,6 +34,9 @@ inline constexpr std::size_t kBytesOfSaves = kMostSaves * kBytesOfASave;
 inline constexpr std::uint64_t kTicksOfAFile = std::uint64_t{24} * 3600 * 60;
 inline constexpr std::uint64_t kSecondsOfAFile = std::uint64_t{3} * 24 * 3600;
 
+// Whether both bundles make the same world. Names of files mean nothing.
+[[nodiscard]] bool makeOneWorld(const wire::AssetBundle& a, const wire::AssetBundle& b);
+
 // The last world of a journal.
 struct LastWorld {
     wire::Recording recording;

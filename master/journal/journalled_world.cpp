@@ -146,14 +146,26 @@ std::optional<std::vector<wire::RecordedInput>> goOn(simulation::LivingWorld& wo
 
 JournalledWorld::JournalledWorld(std::unique_ptr<simulation::LivingWorld> world,
                                  std::unique_ptr<Journal> journal,
+                                 const wire::AssetBundle& assets,
                                  const std::vector<wire::RecordedInput>& ahead)
-    : SimulationDecorator(*world), living_(std::move(world)), journal_(std::move(journal)) {
+    : SimulationDecorator(*world),
+      living_(std::move(world)),
+      journal_(std::move(journal)),
+      relay_(wire::beginningOf(assets, wire::Repertoires::Named)) {
     for (const wire::RecordedInput& input : ahead) put(input.tick, simulation::inputOf(input));
 }
 
 void JournalledWorld::put(Tick tick, const world::WorldInput& input) {
-    const std::uint64_t number = journal_->add(wire::entryOf(simulation::recorded(tick, input)));
-    ahead_.push_back({tick, number, input});
+    const wire::Packet entry = wire::entryOf(simulation::recorded(tick, input));
+    ahead_.push_back({tick, journal_->add(entry), input});
+    relay_.add(entry);
+}
+
+void JournalledWorld::beginFollowed() {
+    std::vector<wire::Packet> ahead;
+    for (const Ahead& input : ahead_)
+        ahead.push_back(wire::entryOf(simulation::recorded(input.tick, input.input)));
+    relay_.begin(living_->world(), ahead);
 }
 
 // Inputs keep their order.
@@ -169,16 +181,22 @@ void JournalledWorld::advance() {
     world_.advance();
     const Tick tick = world_.tick();
     if (tick.value % kTicksBetweenHashes == 0) noteNow();
+    relay_.reach(tick);
     journal_->save(living_->world());
 }
 
 // The hash, and the time by the clock.
 void JournalledWorld::noteNow() {
     const Tick tick = world_.tick();
-    journal_->note(wire::entryOf(wire::RecordedHash{tick, world_.hash()}));
+    note(wire::entryOf(wire::RecordedHash{tick, world_.hash()}));
     wire::RecordedMoment moment = momentAt(tick);
     moment.lateInputs = lateInputs_;
-    journal_->note(wire::entryOf(moment));
+    note(wire::entryOf(moment));
+}
+
+void JournalledWorld::note(const wire::Packet& entry) {
+    journal_->note(entry);
+    relay_.add(entry);
 }
 
 void JournalledWorld::applyDue() {
@@ -216,8 +234,10 @@ std::unique_ptr<JournalledWorld> makeJournalled(const std::filesystem::path& fol
         world = std::make_unique<simulation::LivingWorld>(simulation::worldOptionsOf(assets));
     auto journal = std::make_unique<Journal>(folder, assets.bytes, world->world());
     if (ahead) journal->report()->wentOn(world->tick(), awaySeconds);
-    return std::make_unique<JournalledWorld>(
-        std::move(world), std::move(journal), ahead.value_or(std::vector<wire::RecordedInput>{}));
+    return std::make_unique<JournalledWorld>(std::move(world),
+                                             std::move(journal),
+                                             assets.bytes,
+                                             ahead.value_or(std::vector<wire::RecordedInput>{}));
 }
 
 }  // namespace aquarama::journal

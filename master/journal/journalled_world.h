@@ -13,6 +13,7 @@
 #include "common/wire/recording.h"
 #include "master/conductor/simulation.h"
 #include "master/journal/journal.h"
+#include "master/journal/relay.h"
 #include "master/simulation/living_world.h"
 #include "master/simulation/recorded_world.h"
 
@@ -37,14 +38,21 @@ enum class TimeAway : std::uint8_t { MadeUpFor, LeftOut };
 // its report, and a line in the log says so. Of the tick thread, as the world itself.
 class JournalledWorld final : public simulation::SimulationDecorator {
   public:
-    // `ahead`: inputs of a world that goes on.
+    // Of these assets. `ahead`: inputs of a world that goes on.
     JournalledWorld(std::unique_ptr<simulation::LivingWorld> world,
                     std::unique_ptr<Journal> journal,
+                    const wire::AssetBundle& assets,
                     const std::vector<wire::RecordedInput>& ahead);
 
     void advance() override;
     // Before the first advance() it takes effect at once: nobody has seen the world yet.
     void apply(const world::WorldInput& input) override;
+    // An input of another machine's world, which this one follows.
+    void applyAt(Tick tick, const world::WorldInput& input) { put(tick, input); }
+    void beginFollowed() override;
+    [[nodiscard]] std::optional<conductor::JournalPiece> followed() override {
+        return relay_.take();
+    }
     [[nodiscard]] const simulation::LivingWorld& living() const { return *living_; }
     [[nodiscard]] Journal& journal() { return *journal_; }
 
@@ -58,9 +66,11 @@ class JournalledWorld final : public simulation::SimulationDecorator {
     void noteNow();
     void applyDue();
     void noteLate();
+    void note(const wire::Packet& entry);
 
     std::unique_ptr<simulation::LivingWorld> living_;
     std::unique_ptr<Journal> journal_;
+    Relay relay_;
     std::deque<Ahead> ahead_;
     bool isRunning_ = false;
     std::uint64_t lateInputs_ = 0;  // that took effect before the disk had them

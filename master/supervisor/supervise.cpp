@@ -133,6 +133,7 @@ Process nodeProcess(const RunOptions& options,
                                          : std::filesystem::path(folder);
         arguments = {"--key", config::keyFileIn(keys, channel.name).string()};
     }
+    if (rig.standby) append(arguments, "--master", rig.standby->controlAddress);
     if (options.headless) arguments.emplace_back("--headless");
     append(arguments, "--snapshot", options.snapshotFolder);
     if (options.deep) arguments.emplace_back("--deep");

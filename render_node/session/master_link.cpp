@@ -13,8 +13,9 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr net::Duration kMasterSilence = seconds(2);    // after which the master counts as lost
-constexpr net::Duration kFarthest = milliseconds(250);  // a later release means a wrong clock
+constexpr net::Duration kMasterSilence = seconds(2);  // after which the master counts as lost,
+constexpr net::Duration kShortSilence = milliseconds(600);  // and where there is a standby
+constexpr net::Duration kFarthest = milliseconds(250);      // a later release means a wrong clock
 constexpr net::Duration kReport = seconds(5);
 constexpr net::Duration kSkins = seconds(5);        // so long a node waits for fish and drawings
 constexpr net::Duration kLongestTurn = seconds(2);  // of a net thread that is at work
@@ -30,6 +31,16 @@ std::vector<Digest> blobsIn(const v1::Look& look) {
     return digests;
 }
 
+// Where the master may be, of a rig with a standby; empty of another one.
+std::vector<std::string> mastersIn(const v1::Welcome& welcome) {
+    try {
+        const config::Rig rig = config::parseRig(welcome.rig_text(), "the master's rig");
+        if (rig.standby) return {rig.controlAddress, rig.standby->controlAddress};
+    } catch (const Error&) {  // the render thread says so
+    }
+    return {};
+}
+
 v1::LogSeverity wireSeverity(Severity severity) {
     return static_cast<v1::LogSeverity>(static_cast<int>(severity) + v1::LOG_INFO);
 }
@@ -37,11 +48,12 @@ v1::LogSeverity wireSeverity(Severity severity) {
 }  // namespace
 
 MasterLink::MasterLink(std::string name,
-                       net::Connect connect,
+                       std::vector<std::string> addresses,
+                       net::ConnectTo connect,
                        net::BlobCache cache,
                        Mailbox& mailbox)
     : mailbox_(mailbox),
-      connection_(std::move(name), std::move(connect)),
+      connection_(std::move(name), std::move(addresses), std::move(connect)),
       fetch_(
           std::move(cache),
           [this](v1::Envelope message) { connection_.say(std::move(message)); },
@@ -140,7 +152,7 @@ void MasterLink::handle(const v1::Envelope& message) {
 
 void MasterLink::readControl(const net::ByteVector& bytes) {
     const auto message = wire::decode(bytes);
-    if (!message) return;
+    if (!message || !connection_.isOfNewest(*message)) return;
     moments_.heard = net::monotonicNow();
     take(*message);
 }
@@ -204,7 +216,7 @@ void MasterLink::carryOut(const v1::Order& order) {
 void MasterLink::readState(const net::ByteVector& bytes) {
     figures_.receivedBytes += bytes.size();
     const auto message = wire::decode(bytes);
-    if (!message || connection_.session() == 0) return;
+    if (!message || connection_.session() == 0 || !connection_.isOfNewest(*message)) return;
     if (message->session() != connection_.session()) return lose("the master was started again");
     moments_.heard = net::monotonicNow();
     if (!moments_.statesSince) moments_.statesSince = moments_.heard;
@@ -234,6 +246,7 @@ void MasterLink::takeWelcome(const v1::Envelope& message) {
     phase_ = Phase::Fetching;
     welcome_ = message.welcome();
     calibration_ = wire::calibrationOf(welcome_.rig_text(), welcome_.look());
+    for (const std::string& address : mastersIn(welcome_)) connection_.alsoAt(address);
     pings_ = {};
     try {
         connection_.subscribeState(welcome_.state_address());
@@ -306,7 +319,8 @@ void MasterLink::lose(const std::string& why) {
 void MasterLink::doWhatIsDue(net::Moment now) {
     if (phase_ == Phase::Outside) return;
     if (phase_ == Phase::Greeting) return connection_.greet(now);
-    if (now - moments_.heard > kMasterSilence) return lose("the master has fallen silent");
+    const net::Duration longest = connection_.hasSeveral() ? kShortSilence : kMasterSilence;
+    if (now - moments_.heard > longest) return lose("the master has fallen silent");
     if (auto ping = pings_.due(now)) connection_.say(*std::move(ping));
     sayLog();
     if (phase_ == Phase::Member && now - moments_.report >= kReport) sayReport(now);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "common/base/log.h"
 #include "common/net/blob.h"
@@ -44,8 +45,12 @@ struct LinkMoments {
 // thread, unless they say otherwise.
 class MasterLink {
   public:
-    // Connects once. Throws Error where the address is malformed.
-    MasterLink(std::string name, net::Connect connect, net::BlobCache cache, Mailbox& mailbox);
+    // Connects once, to the first address. Throws Error where it is malformed.
+    MasterLink(std::string name,
+               std::vector<std::string> addresses,
+               net::ConnectTo connect,
+               net::BlobCache cache,
+               Mailbox& mailbox);
 
     // Requests of the render thread, in the order in which they are posted. An envelope is sent to
     // the master; it is dropped while the node is not welcomed.

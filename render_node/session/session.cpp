@@ -128,9 +128,12 @@ class NodeFigures {
 // The render thread's side of a mailbox whose other side is a net thread.
 class LinkSession final : public Session {
   public:
-    LinkSession(const std::string& name, net::Connect connect, const std::filesystem::path& blobs)
+    LinkSession(const std::string& name,
+                const std::vector<std::string>& addresses,
+                net::ConnectTo connect,
+                const std::filesystem::path& blobs)
         : name_(name),
-          link_(name, std::move(connect), net::BlobCache(blobs), mailbox_),
+          link_(name, addresses, std::move(connect), net::BlobCache(blobs), mailbox_),
           netThread_([this] { link_.run(); }) {
         setLogListener(
             [this](Severity severity, const std::string& line) { link_.log(severity, line); });
@@ -299,16 +302,21 @@ std::shared_ptr<school::SchoolMotion> motionOf(const Admission& admission) {
 std::unique_ptr<Session> makeSession(const std::string& name,
                                      net::Connect connect,
                                      const std::filesystem::path& blobDirectory) {
-    return std::make_unique<LinkSession>(name, std::move(connect), blobDirectory);
+    return std::make_unique<LinkSession>(
+        name,
+        std::vector<std::string>(1),
+        [connect = std::move(connect)](const std::string&) { return connect(); },
+        blobDirectory);
 }
 
 std::unique_ptr<Session> connectSession(const std::string& name,
-                                        const std::string& controlAddress,
+                                        const std::vector<std::string>& controlAddresses,
                                         const std::optional<net::PeerKeys>& keys,
                                         const std::filesystem::path& blobDirectory) {
-    return makeSession(
+    return std::make_unique<LinkSession>(
         name,
-        [controlAddress, keys] { return net::connectNode(controlAddress, {}, keys); },
+        controlAddresses,
+        [keys](const std::string& address) { return net::connectNode(address, {}, keys); },
         blobDirectory);
 }
 

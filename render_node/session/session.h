@@ -127,10 +127,11 @@ class Session {
 [[nodiscard]] std::unique_ptr<Session> makeSession(const std::string& name,
                                                    net::Connect connect,
                                                    const std::filesystem::path& blobDirectory);
-// The same over ZeroMQ. Throws Error where the address is malformed.
+// The same over ZeroMQ, to the master at the first address; where it is silent, at the next one.
+// Throws Error where the first is malformed.
 [[nodiscard]] std::unique_ptr<Session> connectSession(
     const std::string& name,
-    const std::string& controlAddress,
+    const std::vector<std::string>& controlAddresses,
     const std::optional<net::PeerKeys>& keys = {},
     const std::filesystem::path& blobDirectory = net::defaultBlobDirectory());
 

@@ -52,13 +52,13 @@ void describe(CLI::App& app,
               PaintOptions& paint) {
     CLI::Option* name =
         app.add_option("NAME", options.channel, "the channel of the rig that this node shows");
-    CLI::Option* master =
-        app.add_option(
-               "--master", options.masterAddress, "the master's control address, tcp://HOST:PORT")
-            ->check(CLI::Validator(addressProblem, ""));
+    app.add_option("--master",
+                   options.masterAddresses,
+                   "the master's control address, tcp://HOST:PORT; once more: that of its standby")
+        ->allow_extra_args(false)
+        ->check(CLI::Validator(addressProblem, ""));
     app.add_option("--key", keyPath, "file of aquarama keys bundle, which names channel and master")
-        ->excludes(name)
-        ->excludes(master);
+        ->excludes(name);
     app.add_flag("--headless", options.headless, "draw without a display");
     app.add_option(
            "--device",
@@ -95,7 +95,7 @@ void readKey(const std::string& path, aquarama::show::NodeOptions& options) {
     using namespace aquarama;
     if (path.empty()) {
         if (options.channel.empty()) throw CLI::RequiredError("NAME or --key");
-        if (options.masterAddress.empty()) throw CLI::RequiredError("--master or --key");
+        if (options.masterAddresses.empty()) throw CLI::RequiredError("--master or --key");
         return;
     }
     const config::KeyFile key = config::readKeyFile(path);
@@ -103,7 +103,7 @@ void readKey(const std::string& path, aquarama::show::NodeOptions& options) {
         throw Error(path + ": is the key of a " + std::string(config::nameOf(key.role)) +
                     "; a node needs that of its channel (aquarama keys bundle)");
     options.channel = key.name;
-    options.masterAddress = key.masterAddress;
+    options.masterAddresses.insert(options.masterAddresses.begin(), key.masterAddress);
     options.keys = net::PeerKeys{key.masterKey, {key.publicKey, key.secretKey}};
 }
 

@@ -62,14 +62,14 @@ bool runNode(const NodeOptions& options) {
     // Before any thread starts, so that all of them inherit the blocked signals.
     cli::holdSignals();
     const std::unique_ptr<session::Session> session =
-        session::connectSession(options.channel, options.masterAddress, options.keys);
+        session::connectSession(options.channel, options.masterAddresses, options.keys);
     machine::ServiceNotifier service;
     const cli::SignalWatch watch([&] {
         service.stopping();
         session->stop();
     });
     session->whileWaiting([&] { service.alive(0); });
-    service.status("waiting for the master at " + options.masterAddress);
+    service.status("waiting for the master at " + options.masterAddresses.front());
     std::optional<session::Admission> admission = session->join();
     if (!admission) return session->isToRestart();
     const std::size_t channel = channelIndex(admission->rig, options.channel);

@@ -13,8 +13,8 @@ namespace aquarama::show {
 // The options of a node. Folders and pipes: empty means none.
 struct NodeOptions {
     std::string channel;
-    std::string masterAddress;
-    std::optional<net::PeerKeys> keys;  // where the master is on another machine
+    std::vector<std::string> masterAddresses;  // control; of the master, then of its standby
+    std::optional<net::PeerKeys> keys;         // where the master is on another machine
     bool headless = false;
     // With --headless, in place of the rig's device; empty: the rig's.
     std::string device;

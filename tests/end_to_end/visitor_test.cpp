@@ -55,7 +55,7 @@ class Master {
     Master& operator=(const Master&) = delete;
 
     [[nodiscard]] std::unique_ptr<session::Session> connect() const {
-        return session::connectSession("middle", control_, {}, folder_ / "blobs");
+        return session::connectSession("middle", {control_}, {}, folder_ / "blobs");
     }
 
   private:

@@ -214,6 +214,7 @@ TEST(House, generatedMessagesStayWithWhoSpeaks) {
     const std::vector<std::string> speakers{"common/wire/",
                                             "common/ask/",
                                             "master/conductor/",
+                                            "master/standby/",
                                             "render_node/session/",
                                             "render_node/show/preview.cpp",
                                             "console/commands.h",
@@ -263,6 +264,10 @@ TEST(House, xmlAndArchivesStayInFormats) {
 
 TEST(House, boostStaysInTheWebServer) {
     EXPECT_EQ(strangers(std::regex("^boost/"), {"common/web/"}), std::vector<std::string>{});
+}
+
+TEST(House, curlStaysInTheLease) {
+    EXPECT_EQ(strangers(std::regex("^curl/"), {"common/lease/"}), std::vector<std::string>{});
 }
 
 TEST(House, libloStaysInOsc) {
@@ -338,6 +343,7 @@ TEST(House, commonIsLayered) {
         {"common/wire/",
          {"common/base/", "common/motion/", "common/body/", "common/wall/", "common/config/"}},
         {"common/net/", {"common/base/"}},
+        {"common/lease/", {"common/base/"}},
         {"common/osc/", {"common/base/"}},
         {"common/tuio/", {"common/osc/"}},
         {"common/ask/", {"common/base/", "common/config/", "common/net/", "common/wire/"}},

@@ -46,6 +46,52 @@ channels {
 }
 )";
 
+// The text of a standby, with one value replaced.
+std::string withStandby(const std::string& good = "", const std::string& bad = "") {
+    std::string block = R"(standby { machine: "spare" control: "tcp://127.0.0.1:7500")"
+                        R"( state: "tcp://127.0.0.1:7501" etcd: "http://127.0.0.1:2379")"
+                        R"( etcd: "https://192.168.7.1:2379" }
+)";
+    if (!good.empty()) block.replace(block.find(good), good.size(), bad);
+    return kRig + block;
+}
+
+TEST(Rig, namesItsStandby) {
+    EXPECT_FALSE(parseRig(kRig, "small.txtpb").standby);
+    const Rig rig = parseRig(withStandby(), "small.txtpb");
+    ASSERT_TRUE(rig.standby);
+    EXPECT_EQ(rig.standby->machine, "spare");
+    EXPECT_EQ(rig.standby->controlAddress, "tcp://127.0.0.1:7500");
+    EXPECT_EQ(rig.standby->stateAddress, "tcp://127.0.0.1:7501");
+    EXPECT_EQ(rig.standby->etcd,
+              (std::vector<std::string>{"http://127.0.0.1:2379", "https://192.168.7.1:2379"}));
+}
+
+TEST(Rig, refusesAStandbyThatCannotBe) {
+    struct Case {
+        std::string good, bad, why;
+    };
+    for (const auto& [good, bad, why] :
+         {Case{"machine: \"spare\"", "", "lacks machine"},
+          Case{"7500", "7400", "the master's own address"},
+          Case{"7501", "7500", "state and control share one port"},
+          Case{"tcp://127.0.0.1:7500", "tcp://192.168.7.2:7500", "only one of them"},
+          Case{"tcp://127.0.0.1:7501", "127.0.0.1:7501", "no address"},
+          Case{"http://127.0.0.1:2379", "127.0.0.1:2379", "no address"},
+          Case{"http://127.0.0.1:2379", "http://127.0.0.1", "no address"},
+          Case{"http://127.0.0.1:2379", "http://127.0.0.1:x", "port"},
+          Case{"https://192.168.7.1:2379", "http://192.168.7.1:2379", "write https"},
+          Case{"https://192.168.7.1:2379", "https://etcd.example:2379", "one network card"}}) {
+        try {
+            static_cast<void>(parseRig(withStandby(good, bad), "small.txtpb"));
+            ADD_FAILURE() << bad;
+        } catch (const Error& error) {
+            EXPECT_THAT(error.what(), testing::HasSubstr(why));
+            EXPECT_THAT(error.what(), testing::StartsWith("small.txtpb:27:")) << "the place";
+        }
+    }
+}
+
 TEST(Rig, everyValueArrivesInItsPlace) {
     const Rig rig = parseRig(kRig, "small.txtpb");
     EXPECT_EQ(rig.name, "small");

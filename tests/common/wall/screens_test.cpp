@@ -341,7 +341,7 @@ TEST(Panels, aPixelIsItsPlaceOnTheDisplay) {
 TEST(Panels, bezelsAreKeptOrHidden) {
     for (const bool hides : {false, true}) {
         config::Rig rig = shippedRig("televisions_3");
-        rig.hidesBezels = hides;
+        rig.screen.hidesBezels = hides;
         const Wall wall(rig);
         const glm::dvec3 right = wall.channel(0).pointOf({640, 180}, 0).value();
         const glm::dvec3 left = wall.channel(1).pointOf({0, 180}, 0).value();

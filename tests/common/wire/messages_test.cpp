@@ -69,11 +69,24 @@ TEST(Messages, haveTheBytesThatTheyAlwaysHad) {
         "d2d0fb349a124769", "82237231c4be6081", "1821004a010ce9ae", "d9a07501cef5a5cd",
         "8577ff43dd645d36", "79d9b76fd34295b7", "8e02d0f47cf4161a", "ffd01da1ca239d92",
         "2d3d841a32c3907b", "737676a7be02f7b2", "00a175c588369d39", "90437d35a3117237",
-        "9b9dac21361f4714", "302287949d12ca0b", "ac7a3f8f79f78dac"};
+        "9b9dac21361f4714", "4699894d539ea8e1", "8a47fc93c7075f49", "1fbe8695add13fbf",
+        "69926a0db1cb5c89", "e406a56129ada6e5"};
     const std::vector<Packet> packets = samplePackets();
     ASSERT_EQ(packets.size(), digests.size());
     for (std::size_t i = 0; i < packets.size(); ++i)
         EXPECT_EQ(toHex(digestOf(packets[i])).substr(0, 16), digests[i]) << nameOf(packets[i]);
+}
+
+// A master puts its lease before packets of any kind.
+TEST(Messages, carryTheLeaseThatIsPutBeforeThem) {
+    for (const Packet& packet : samplePackets()) {
+        Packet fenced = leaseField(77);
+        fenced.insert(fenced.end(), packet.begin(), packet.end());
+        const auto plain = decode(packet), message = decode(fenced);
+        ASSERT_TRUE(message) << nameOf(packet);
+        EXPECT_EQ(message->message_case(), plain->message_case());
+        EXPECT_EQ(message->lease_revision(), 77U);
+    }
 }
 
 TEST(Messages, everyKindComesBackToTheBit) {
@@ -460,6 +473,7 @@ TEST(Messages, boundsOfTheCodeAreThoseOfTheSchema) {
     EXPECT_EQ(ruleOf(v1::Show(), "scene").most_bytes(), kMostNameBytes);
     EXPECT_EQ(ruleOf(v1::LogLine(), "text").most_bytes(), kMostLogBytes);
     EXPECT_EQ(ruleOf(v1::BlobChunk(), "content").most_bytes(), kBlobChunkBytes);
+    EXPECT_EQ(ruleOf(v1::Journalled(), "entries").most_bytes(), kBlobChunkBytes);
     EXPECT_EQ(ruleOf(v1::BlobChunk(), "total").most(), kMostBlobBytes);
     EXPECT_EQ(ruleOf(v1::Explanation(), "lines").most(), kMostExplanationLines);
     EXPECT_EQ(ruleOf(v1::Explanation(), "lines").most_bytes(), kMostExplanationLineBytes);

@@ -323,7 +323,31 @@ inline std::vector<v1::Envelope> sampleWatch() {
     return messages;
 }
 
-// A state is encoded by its own codec.
+// What a standby and its master say to each other, and the order that changes the master.
+inline std::vector<v1::Envelope> sampleStandby() {
+    std::vector<v1::Envelope> messages(3);
+    v1::Follow& follow = *messages[0].mutable_follow();
+    follow.set_machine("spare");
+    follow.set_major(3);
+    follow.set_build("0.1.0");
+    follow.set_motor_hash(0x0123456789ABCDEFU);
+    follow.set_stream(9);
+    follow.set_taken(70);
+    follow.set_in_step(true);
+    v1::Journalled& part = *messages[1].mutable_journalled();
+    part.set_stream(9);
+    part.set_part(0);
+    part.set_entries("entries");
+    part.set_goes_on(false);
+    part.set_tick(300);
+    part.set_scene("reef");
+    part.mutable_wanted()->set_black(true);
+    part.mutable_kept()->set_scene("reef");
+    messages[2].mutable_order()->set_request(83);
+    messages[2].mutable_order()->mutable_change_master()->set_machine("spare");
+    return messages;
+}
+
 // What is said of keyframes.
 inline std::vector<v1::Envelope> sampleKeyframes() {
     std::vector<v1::Envelope> messages(2);
@@ -332,6 +356,7 @@ inline std::vector<v1::Envelope> sampleKeyframes() {
     return messages;
 }
 
+// A state is encoded by its own codec.
 inline std::vector<Packet> samplePackets() {
     constexpr std::uint64_t kSession = 0x0123456789ABCDEFU;
     const std::vector<std::byte> chunk(100, std::byte{0xA5});
@@ -376,6 +401,8 @@ inline std::vector<Packet> samplePackets() {
     for (const v1::Envelope& message : sampleDrawings())
         packets.push_back(encode(kSession, message));
     for (const v1::Envelope& message : sampleCues()) packets.push_back(encode(kSession, message));
+    for (const v1::Envelope& message : sampleStandby())
+        packets.push_back(encode(kSession, message));
     for (const v1::Envelope& message : sampleKeyframes())
         packets.push_back(encode(kSession, message));
     return packets;

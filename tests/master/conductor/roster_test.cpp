@@ -25,7 +25,8 @@ std::string whoMay(const v1::Envelope& message) {
                                KeyRole::Visitor,
                                KeyRole::Operator,
                                KeyRole::Crew,
-                               KeyRole::Guests})
+                               KeyRole::Guests,
+                               KeyRole::Standby})
         if (maySay({role, role == KeyRole::Node ? "left" : ""}, message))
             names += std::string(config::nameOf(role)) + " ";
     return names;
@@ -54,6 +55,9 @@ TEST(Users, maySayWhatTheirRoleIsFor) {
     v1::Envelope question;
     question.mutable_drawings_request();
     EXPECT_EQ(whoMay(question), "watcher operator crew guests ");
+    v1::Envelope follow;
+    follow.mutable_follow();
+    EXPECT_EQ(whoMay(follow), "standby ");
     EXPECT_EQ(whoMay(test::present(1, 0)), "") << "nobody but the master says it";
 }
 

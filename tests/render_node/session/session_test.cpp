@@ -474,6 +474,26 @@ TEST_F(SessionTest, joinsAgainWhenTheMasterWasStartedAgain) {
     EXPECT_EQ(session_->interruption(), Release::Rejoin);
 }
 
+// A master that was held up, while another became the master.
+TEST_F(SessionTest, aMasterOfAnOlderLeaseIsNotHeard) {
+    becomeMember(wire::Pace::Live, {0});
+    const auto farewellBy = [](std::uint64_t lease) {
+        v1::Envelope message = test::farewell();
+        message.set_lease_revision(lease);
+        return message;
+    };
+    v1::Envelope newer = test::pong(1, 2);
+    newer.set_lease_revision(20);
+    master_.say(newer);
+    master_.say(farewellBy(19));
+    master_.say(test::farewell());  // without a lease
+    auto next = std::async(std::launch::async, [&] { return session_->nextFrame().has_value(); });
+    EXPECT_EQ(next.wait_for(milliseconds(300)), std::future_status::timeout);
+    master_.say(farewellBy(20));
+    EXPECT_FALSE(next.get());
+    EXPECT_EQ(session_->interruption(), Release::Quit);
+}
+
 TEST_F(SessionTest, joinsAgainWhenTheMasterFallsSilent) {
     becomeMember(wire::Pace::Live, {0});
     EXPECT_FALSE(session_->nextFrame());  // nobody answers its pings any more
@@ -549,7 +569,7 @@ TEST_F(SessionTest, noiseOnBothChannelsChangesNothing) {
 }
 
 TEST_F(SessionTest, aMalformedAddressIsRefusedAtOnce) {
-    EXPECT_THROW(static_cast<void>(connectSession("left", "127.0.0.1")), Error);
+    EXPECT_THROW(static_cast<void>(connectSession("left", {"127.0.0.1"})), Error);
 }
 
 }  // namespace

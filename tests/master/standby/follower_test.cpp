@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+// A standby over channels in memory: it follows a world, loses the thread, is refused, takes over.
+#include "master/standby/follower.h"
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "common/base/log.h"
+#include "master/journal/journal.h"
+#include "tests/support/memory_channels.h"
+#include "tests/support/synthetic_assets.h"
+
+namespace aquarama::standby {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+simulation::Assets assetsOf(std::uint32_t seed) {
+    simulation::Assets assets;
+    assets.bytes = test::syntheticAssets(seed);
+    assets.scene = config::parseScene(assets.bytes.scene, "scene");
+    for (const wire::SpeciesAssets& species : assets.bytes.cast) {
+        assets.scene.cast[assets.species.size()].fish = species.fish;
+        assets.species.push_back(config::parseSpecies(species.text, species.file));
+    }
+    return assets;
+}
+
+// A master's end: its world, and what it sends.
+class Master {
+  public:
+    Master(test::MemoryNet& net, const fs::path& journal, std::uint32_t seed = 1)
+        : channels_{net.master()},
+          world_{journal::makeJournalled(journal, assetsOf(seed), journal::TimeAway::LeftOut)} {
+        show_.wanted.set_black(true);
+    }
+
+    // Advances by a tick and sends what there is for the standby.
+    void turn() {
+        while (const auto from = channels_->receiveControl()) {
+            const auto message = wire::decode(from->bytes);
+            ASSERT_TRUE(message && message->has_follow());
+            asked_ = message->follow();
+            peer_ = from->peer;
+            feed_.hear(from->peer, message->follow(), net::monotonicNow());
+        }
+        if (feed_.takesBeginning()) world_->beginFollowed();
+        visit();
+        world_->advance();
+        feed_.turn(*world_, show_, net::monotonicNow());
+    }
+    void say(v1::Envelope message) { sender_.say(peer_, std::move(message)); }
+    // The next part of the stream that the standby has, with these entries.
+    void sayEntries(const std::string& entries, std::uint64_t skipped = 0) {
+        v1::Envelope message;
+        message.mutable_journalled()->set_stream(asked_.stream());
+        message.mutable_journalled()->set_part(asked_.taken() + skipped);
+        message.mutable_journalled()->set_entries(entries);
+        say(std::move(message));
+    }
+    [[nodiscard]] journal::JournalledWorld& world() { return *world_; }
+    conductor::StandbyFeed& feed() { return feed_; }
+    [[nodiscard]] const v1::Follow& asked() const { return asked_; }
+
+  private:
+    void visit() {
+        const std::uint64_t tick = world_->tick().value;
+        if (tick % 17 == 5) world_->apply(world::DropFood{.position = {0.1F, -5, -4}});
+        if (tick % 23 == 7) world_->apply(Steering{.ahead = static_cast<std::int8_t>(tick % 100)});
+    }
+
+    std::unique_ptr<net::MasterChannels> channels_;
+    std::unique_ptr<journal::JournalledWorld> world_;
+    conductor::Sender sender_{7, [this](const net::PeerId& peer, net::ByteView packet) {
+                                  channels_->sendControl(peer, packet);
+                              }};
+    conductor::StandbyFeed feed_{true, sender_};
+    conductor::FollowedShow show_{.scene = "tank", .wanted = {}, .kept = {}};
+    v1::Follow asked_;
+    net::PeerId peer_;
+};
+
+class FollowerTest : public testing::Test {
+  protected:
+    FollowerTest() : master_{net_, folder_ / "master"} {}
+    ~FollowerTest() override { fs::remove_all(folder_); }
+
+    Follower follower(std::uint32_t seed = 1) {
+        return Follower({.machine = "spare",
+                         .connect = [this] { return net_.node(); },
+                         .journal = folder_ / "spare",
+                         .assets =
+                             [seed](const std::string& scene, std::uint32_t) {
+                                 EXPECT_EQ(scene, "tank");
+                                 return assetsOf(seed);
+                             }});
+    }
+    void turn(Follower& follower) {
+        master_.turn();
+        follower.turn();
+    }
+    bool getsInStep(Follower& follower) {
+        for (int i = 0; i < 600 && master_.feed().inStep().empty(); ++i) turn(follower);
+        return master_.feed().inStep() == "spare";
+    }
+    [[nodiscard]] std::size_t recordings() const {
+        std::size_t count = 0;
+        for (const auto& entry : fs::directory_iterator(folder_ / "spare"))
+            count += entry.path().extension() == ".aqrec" ? 1U : 0U;
+        return count;
+    }
+
+    fs::path folder_ = fs::temp_directory_path() / ("aquarama-standby-" + std::to_string(getpid()));
+    test::MemoryNet net_;
+    Master master_;
+};
+
+TEST_F(FollowerTest, takesOverTheSameWorldWithWhatIsAhead) {
+    Follower spare = follower();
+    ASSERT_TRUE(getsInStep(spare));
+    for (int i = 0; i < 300; ++i) turn(spare);
+    ASSERT_TRUE(spare.hasWorld());
+    while (master_.world().tick().value % 17 != 6) turn(spare);  // an input is ahead
+    for (int i = 0; i < 5; ++i) spare.turn();
+    EXPECT_EQ(spare.tick(), master_.world().tick());
+    const auto taken = spare.takeOver();
+    EXPECT_TRUE(taken.show.wanted.black());
+    EXPECT_EQ(taken.show.scene, "tank");
+    while (master_.world().tick() < taken.world->tick()) master_.world().advance();
+    while (taken.world->tick() < master_.world().tick()) taken.world->advance();
+    for (int i = 0; i < 10; ++i) {
+        EXPECT_EQ(taken.world->hash(), master_.world().hash()) << taken.world->tick().value;
+        taken.world->advance();
+        master_.world().advance();
+    }
+}
+
+TEST_F(FollowerTest, keepsAJournalThatPlays) {
+    Follower spare = follower();
+    ASSERT_TRUE(getsInStep(spare));
+    for (int i = 0; i < 200; ++i) turn(spare);
+    static_cast<void>(spare.takeOver());
+    EXPECT_EQ(recordings(), 1U);
+    const auto last = journal::lastWorldIn(folder_ / "spare", assetsOf(1).bytes);
+    ASSERT_TRUE(last);
+    EXPECT_GT(last->recording.inputs.size(), 10U);
+    EXPECT_GT(last->recording.checkpoints.size(), 1U);
+}
+
+TEST_F(FollowerTest, beginsAnewWhereItLostTheThread) {
+    Follower spare = follower();
+    ASSERT_TRUE(getsInStep(spare));
+    for (const auto& [entries, skipped] :
+         {std::pair(std::string("no entry"), 0), {std::string(), 5}, {std::string(90, '\0'), 0}}) {
+        for (int i = 0; i < 20; ++i) turn(spare);
+        const std::uint64_t before = master_.asked().stream();
+        for (int i = 0; i < 3; ++i) spare.turn();
+        master_.turn();
+        for (int i = 0; i < 3; ++i) spare.turn();
+        master_.turn();
+        master_.sayEntries(entries, static_cast<std::uint64_t>(skipped));
+        for (int i = 0; i < 600 && master_.asked().stream() == before; ++i) turn(spare);
+        EXPECT_NE(master_.asked().stream(), before);
+        ASSERT_TRUE(getsInStep(spare));
+    }
+    for (int i = 0; i < 5; ++i) spare.turn();
+    EXPECT_EQ(spare.takeOver().world->tick().value > 0, true);
+}
+
+TEST_F(FollowerTest, isRefusedByNameWhereItsBuildIsAnother) {
+    Follower spare = follower();
+    master_.turn();
+    v1::Follow other;
+    other.set_machine("spare");
+    other.set_major(wire::kProtocolMajor);
+    other.set_build("0.0.1-other");
+    std::string refused;
+    const conductor::Sender sender{7, [&](const net::PeerId&, net::ByteView packet) {
+                                       refused = wire::decode(packet)->refusal().reason();
+                                   }};
+    conductor::StandbyFeed feed{true, sender};
+    feed.hear("peer", other, net::monotonicNow());
+    EXPECT_THAT(refused, HasSubstr("0.0.1-other"));
+    EXPECT_THAT(refused, HasSubstr("install the same version on both"));
+    EXPECT_FALSE(feed.isThere());
+    other.set_build(AQUARAMA_VERSION);
+    feed.hear("peer", other, net::monotonicNow());
+    EXPECT_THAT(refused, HasSubstr("moves fish to other places"));
+}
+
+TEST_F(FollowerTest, doesNotStandByWithOtherFiles) {
+    Follower spare = follower(2);
+    std::string errors;
+    setLogListener([&](Severity severity, const std::string& line) {
+        if (severity == Severity::Error) errors += line + "\n";
+    });
+    for (int i = 0; i < 100; ++i) turn(spare);
+    setLogListener({});
+    EXPECT_FALSE(spare.hasWorld());
+    EXPECT_THAT(errors, HasSubstr("spare does not stand by: scene tank"));
+}
+
+TEST_F(FollowerTest, doesNotTakeOverAShowThatHasEnded) {
+    Follower spare = follower();
+    ASSERT_TRUE(getsInStep(spare));
+    master_.feed().sayFarewell();
+    for (int i = 0; i < 50 && spare.hasWorld(); ++i) spare.turn();
+    EXPECT_FALSE(spare.hasWorld());
+}
+
+}  // namespace
+}  // namespace aquarama::standby
