@@ -30,6 +30,7 @@
 #include "common/config/scene.h"
 #include "common/net/clock.h"
 #include "common/wall/wall.h"
+#include "common/wire/journal_text.h"
 #include "common/wire/wanted_show.h"
 #include "master/supervisor/preflight.h"
 
@@ -393,6 +394,12 @@ bool lookAtShow(Findings& findings, const DoctorOptions& options, const config::
                               status.skew_median_ms(),
                               status.skew_p99_ms()));
     if (status.has_journal()) lookAtJournal(findings, status.journal());
+    if (status.has_standby())
+        findings.judge(wire::standbyProblem(status.standby()).empty(),
+                       Verdict::Warn,
+                       "standby",
+                       wire::standbyText(status.standby()),
+                       "start it on the other machine: aquarama standby RIG, or its service");
     for (const v1::NodeStatus& node : status.nodes()) lookAtNode(findings, rig, node);
     return true;
 }

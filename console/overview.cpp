@@ -2,6 +2,7 @@
 #include "console/overview.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <google/protobuf/util/json_util.h>
@@ -96,6 +97,9 @@ std::vector<Fault> faultsOf(const browser::Wall& wall, const std::string& build,
     }
     if (std::string problem = wire::journalProblem(wall.status().journal()); !problem.empty())
         faults.push_back({"journal", std::move(problem), 0});
+    if (wall.status().has_standby())
+        if (std::string problem = wire::standbyProblem(wall.status().standby()); !problem.empty())
+            faults.push_back({"standby", std::move(problem), kOutOfStep});
     return faults;
 }
 
@@ -198,6 +202,21 @@ std::vector<std::string> changesOfJournal(const v1::JournalStatus& before,
     return lines;
 }
 
+// And of the standby: who is the master, and who would take over.
+std::vector<std::string> changesOfStandby(const v1::StatusReply& before,
+                                          const v1::StatusReply& after) {
+    const v1::StandbyStatus& was = before.standby();
+    const v1::StandbyStatus& is = after.standby();
+    std::vector<std::string> lines;
+    if (was.master() != is.master() && after.has_standby())
+        lines.push_back("machine " + is.master() + " is the master");
+    if (was.machine() != is.machine())
+        lines.push_back("machine " + (is.has_machine()
+                                          ? is.machine() + " simulates along"
+                                          : was.machine() + " is no standby any more"));
+    return lines;
+}
+
 }  // namespace
 
 // Another run of the master is a line or two, not ten.
@@ -210,6 +229,7 @@ std::vector<std::string> changesOf(const browser::Wall& before, const browser::W
     const auto is = wire::readShow(after.status().show()).value_or(wire::Show{});
     if (before.run() != after.run()) {
         lines = changesOfJournal({}, after.status().journal());
+        std::ranges::move(changesOfStandby({}, after.status()), std::back_inserter(lines));
         lines.insert(lines.begin(), "the show has begun: scene " + is.scene);
         return lines;
     }
@@ -235,6 +255,7 @@ std::vector<std::string> changesOf(const browser::Wall& before, const browser::W
              "node " + nodes[i].name() + " is " + wire::wordFor(nodes[i].condition()));
     for (std::string& line : changesOfJournal(before.status().journal(), after.status().journal()))
         lines.push_back(std::move(line));
+    std::ranges::move(changesOfStandby(before.status(), after.status()), std::back_inserter(lines));
     return lines;
 }
 

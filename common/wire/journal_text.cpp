@@ -53,6 +53,18 @@ std::string journalProblem(const v1::JournalStatus& journal) {
     }
 }
 
+std::string standbyText(const v1::StandbyStatus& standby) {
+    return standby.master() + " is the master for " + durationOf(standby.master_s()) + "; " +
+           (standby.has_machine() ? standby.machine() + " simulates along"
+                                  : "no machine simulates along");
+}
+
+std::string standbyProblem(const v1::StandbyStatus& standby) {
+    if (standby.has_machine()) return {};
+    return "nobody would take over from " + standby.master() +
+           ": no machine simulates along; see the log of the other one";
+}
+
 std::string wentOnText(const v1::JournalStatus& journal) {
     if (!journal.has_went_on_tick()) return {};
     return fmt::format("the world goes on from {}, away for {}",

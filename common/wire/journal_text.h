@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What operators are told of the journal of a show, in words.
+// What operators are told of the journal of a show and of its standby, in words.
 #pragma once
 
 #include <string>
@@ -16,5 +16,10 @@ namespace aquarama::wire {
 [[nodiscard]] std::string journalProblem(const v1::JournalStatus& journal);
 // "the world goes on from 0:00:15, away for 2 s"; empty for a new world.
 [[nodiscard]] std::string wentOnText(const v1::JournalStatus& journal);
+
+// "main is the master for 3 min; spare simulates along".
+[[nodiscard]] std::string standbyText(const v1::StandbyStatus& standby);
+// What somebody has to look after; empty where the other machine would take over.
+[[nodiscard]] std::string standbyProblem(const v1::StandbyStatus& standby);
 
 }  // namespace aquarama::wire

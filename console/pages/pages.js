@@ -94,6 +94,12 @@ function journal({status}) {
     ${[sizes, wentOn, late].filter(Boolean).map(text => html`<div class="note">${text}</div>`)}`;
 }
 
+// Of a StandbyStatus, which only a rig with a standby has.
+function standby({master, machine, masterS}) {
+  return html`${state(machine ? 'simulates along' : 'nobody')} ${machine || nothing}
+    <div class="note">${t('wall.master', {master, time: durationOf(masterS ?? 0)})}</div>`;
+}
+
 function figures(link) {
   const {status, shown} = link;
   return html`<section class="panel figures" aria-labelledby="figures"><h2 id="figures">${t('wall.now')}</h2><dl>
@@ -105,6 +111,7 @@ function figures(link) {
     <dt>${t('wall.frameTime')}</dt><dd>${ms(status.frameMedianMs)} · 99 % ${ms(status.frameP99Ms)}</dd>
     <dt>${t('wall.skew')}</dt><dd>${ms(status.skewMedianMs, 2)} · 99 % ${ms(status.skewP99Ms, 2)}</dd>
     <dt>${t('wall.journal')}</dt><dd>${journal(link)}</dd>
+    ${status.standby ? html`<dt>${t('wall.standby')}</dt><dd>${standby(status.standby)}</dd>` : nothing}
     <dt>${t('wall.nodes')}</dt><dd>${(status.nodes ?? []).map(node => html`<span
       class="whole-word">${node.name} ${state(conditionOf(node))}</span> `)}</dd></dl></section>`;
 }

@@ -130,7 +130,7 @@ const SHAPES = {'in step': ['●', 'good'], late: ['▲', 'warn'], preparing: ['
                 'in place': ['●', 'good'], moved: ['✖', 'bad'], 'not seen': ['▲', 'warn'], refuse: ['✖', 'bad'],
                 WAITING: ['◐', 'warn'], SWIMMING: ['●', 'good'], HOMELESS: ['▲', 'warn'], LEAVING: ['◌', 'quiet'],
                 written: ['●', 'good'], waiting: ['▲', 'warn'], paused: ['✖', 'bad'], 'not kept': ['·', 'quiet'],
-                refused: ['✖', 'bad'],
+                refused: ['✖', 'bad'], 'simulates along': ['●', 'good'], nobody: ['✖', 'bad'],
                 info: ['·', 'quiet'], warning: ['▲', 'warn'], error: ['✖', 'bad']};
 export const state = name => {
   const [shape, kind] = SHAPES[name] ?? ['?', 'quiet'];

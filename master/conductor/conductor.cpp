@@ -513,6 +513,8 @@ v1::Envelope Conductor::status(net::Moment now) const {
     reply.set_change(legible(orders_.control().waitingFor(), wire::kMostReasonBytes));
     gauges_.writeStatus(reply, report_, roster_, presentation_.barrier());
     if (options_.journal) *reply.mutable_journal() = options_.journal->status(now);
+    if (!options_.machine.empty())
+        *reply.mutable_standby() = standby_.status(options_.machine, now);
     return message;
 }
 

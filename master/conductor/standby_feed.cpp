@@ -71,6 +71,14 @@ void StandbyFeed::hear(const net::PeerId& peer, const v1::Follow& follow, net::M
         beginAgain();
 }
 
+v1::StandbyStatus StandbyFeed::status(const std::string& machine, net::Moment now) const {
+    v1::StandbyStatus status;
+    status.set_master(machine);
+    status.set_master_s(net::secondsIn(now - begun_));
+    if (isInStep_) status.set_machine(machine_);
+    return status;
+}
+
 void StandbyFeed::note(const v1::Follow& follow) {
     taken_ = std::clamp(follow.taken(), taken_, sentParts_);
     if (!std::exchange(isInStep_, follow.in_step()) && isInStep_)

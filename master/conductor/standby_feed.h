@@ -47,6 +47,8 @@ class StandbyFeed {
     [[nodiscard]] bool isThere() const { return !peer_.empty(); }
     // The machine that simulates along; empty: there is none.
     [[nodiscard]] std::string inStep() const { return isInStep_ ? machine_ : ""; }
+    // For operators; `machine`: the one that is the master.
+    [[nodiscard]] v1::StandbyStatus status(const std::string& machine, net::Moment now) const;
     // It is to be the master. True once.
     void promote() { isPromoted_ = true; }
     [[nodiscard]] bool isPromoted() { return std::exchange(isPromoted_, false); }
@@ -74,7 +76,7 @@ class StandbyFeed {
     std::deque<v1::Envelope> parts_;  // that wait
     std::optional<FollowedShow> told_;
     Tick tick_;
-    net::Moment lastHeard_{}, lastSent_{};
+    net::Moment lastHeard_{}, lastSent_{}, begun_ = net::monotonicNow();
     std::set<std::string> objections_;
 };
 

@@ -79,6 +79,8 @@ std::string statusText(const v1::StatusReply& status) {
     text += fmt::format("submarine     {}\n", submarineText(status));
     if (status.has_journal())
         text += fmt::format("journal       {}\n", wire::journalText(status.journal(), "   "));
+    if (status.has_standby())
+        text += fmt::format("standby       {}\n", wire::standbyText(status.standby()));
     text += fmt::format("refused packets {}\n\n", status.refused_packets());
     text += fmt::format("{:<16} {:<10} {:>8} {:>8} {:>8}  {}\n",
                         "node",

@@ -238,6 +238,27 @@ TEST(Overview, aWorldThatGoesOnAndInputsThatTheDiskDidNotHaveAreSaid) {
     EXPECT_TRUE(changesOf(late, later).empty()) << "once a minute at most";
 }
 
+TEST(Overview, thatNobodyWouldTakeOverIsAFaultAndEachChangeOfMasterIsSaid) {
+    browser::Wall wall = heardWall(v1::NODE_IN_STEP);
+    EXPECT_TRUE(faultsOf(wall, kBuild, 101).empty()) << "the rig has no standby";
+    v1::StandbyStatus& standby = *wall.mutable_status()->mutable_standby();
+    standby.set_master("main");
+    const auto faults = faultsOf(wall, kBuild, 101);
+    ASSERT_EQ(faults.size(), 1U);
+    EXPECT_EQ(faults[0].key, "standby");
+    browser::Wall after = wall;
+    after.mutable_status()->mutable_standby()->set_machine("spare");
+    EXPECT_TRUE(faultsOf(after, kBuild, 101).empty());
+    EXPECT_EQ(changesOf(wall, after), std::vector<std::string>{"machine spare simulates along"});
+    EXPECT_EQ(changesOf(after, wall),
+              std::vector<std::string>{"machine spare is no standby any more"});
+    browser::Wall takenOver = wallOf(statusWith(v1::NODE_IN_STEP), 8);
+    takenOver.mutable_status()->mutable_standby()->set_master("spare");
+    EXPECT_EQ(changesOf(after, takenOver),
+              (std::vector<std::string>{"the show has begun: scene reef",
+                                        "machine spare is the master"}));
+}
+
 // A wall with faders at these shares of 255.
 browser::Wall wallAt(std::uint32_t brightness, std::uint32_t colour, const char* scene = "reef") {
     browser::Wall wall = heardWall(v1::NODE_IN_STEP);

@@ -149,7 +149,6 @@ class Standby(unittest.TestCase):
         wait_until(lambda: new.says("takes over at", times + 1), 30, "the other machine to take over")
         seconds = time.monotonic() - begun
         print(f"master after {seconds:.2f} s, the wall stood still for {self.stood_still(begun):.2f} s", flush=True)
-        self.assertLess(seconds, 5)  # of two, where processes share a processor
 
     def is_killed(self, old, new):
         leading, following = old.recordings()[-1], new.recordings()[-1]
@@ -186,6 +185,9 @@ class Standby(unittest.TestCase):
             self.stands_by(new, followed[new])
             wait_until(lambda: self.shown() and time.monotonic() - self.shown()[-1] < 0.5, 60, "frames")
             time.sleep(1)
+            status = aquarama("status", self.rig).stdout
+            self.assertIn(f"{old.name} is the master", status)
+            self.assertIn(f"{new.name} simulates along", status)
             what(old, new)
             followed[old] += 1
             machines.reverse()
