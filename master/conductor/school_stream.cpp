@@ -98,7 +98,7 @@ wire::SchoolPart SchoolStream::upTo(Tick tick) {
     const bool follows = sent_ && *sent_ >= bases_.front().tick;
     wire::SchoolPart part = follows ? wire::SchoolPart{stream_, {}, between(*sent_, tick)}
                                     : fromBase({std::max<std::uint64_t>(tick.value, 1) - 1}, tick);
-    sent_ = tick;
+    sent_ = std::max(sent_.value_or(tick), tick);
     return part;
 }
 

@@ -338,6 +338,7 @@ TEST(House, commonIsLayered) {
         {"common/skin/", {"common/base/", "common/body/"}},
         {"common/motion/", {"common/base/", "common/body/"}},
         {"common/place/", {"common/base/", "common/config/"}},
+        {"common/school/", {"common/base/", "common/motion/", "common/place/"}},
         {"common/wall/", {"common/base/", "common/config/", "common/formats/"}},
         {"common/formats/", {"common/base/"}},
         {"common/wire/",
