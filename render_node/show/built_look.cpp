@@ -3,6 +3,7 @@
 
 #include <cassert>
 #include <chrono>
+#include <future>
 #include <utility>
 
 #include "common/base/log.h"
@@ -12,10 +13,11 @@ namespace aquarama::show {
 
 BuiltLook::BuiltLook(gl::Context& context, const std::string& channel, session::Admission admission)
     : admission_{std::move(admission)},
-      motion_{session::motionOf(admission_)},
       channel_{channelIndex(admission_.rig, channel)},
       wall_{std::make_shared<const wall::Wall>(admission_.rig)},
       workspace_{context.makeWorkspace()} {
+    // Beside the pictures.
+    auto motion = std::async(std::launch::async, [this] { return session::motionOf(admission_); });
     const glm::ivec2 size = admission_.rig.channels[channel_].sizePixels;
     workspace_->makeCurrent();
 #ifndef NDEBUG
@@ -29,6 +31,7 @@ BuiltLook::BuiltLook(gl::Context& context, const std::string& channel, session::
     // Some drivers compile shaders on first use.
     drawEmpty();
     gl::waitForGpu();
+    motion_ = motion.get();
 }
 
 BuiltLook::~BuiltLook() {

@@ -22,7 +22,7 @@ class Releases {
   public:
     void attend(session::Session& session, net::Duration drawing) {
         while (const auto admission = session.join()) {
-            session.prepared(1, config::QualityTier::Low, session::motionOf(*admission));
+            session.prepared(1, config::QualityTier::Low, test::stillMotion(*admission));
             while (const auto state = session.nextFrame()) {
                 std::this_thread::sleep_for(drawing);
                 if (session.readyThenWait(state->frame) != session::Release::Present) continue;
@@ -142,7 +142,7 @@ void inputToLight(benchmark::State& bench) {
         const auto session = session::makeSession("left", master.connect(), blobs);
         const auto admission = session->join();
         if (!admission) return bench.SkipWithError("no show");
-        session->prepared(1, config::QualityTier::Low, session::motionOf(*admission));
+        session->prepared(1, config::QualityTier::Low, test::stillMotion(*admission));
         Hand hand(*session);
         while (hand.refreshes.size() < 100) {
             const auto state = session->nextFrame();

@@ -173,6 +173,14 @@ inline std::filesystem::path freshDirectory() {
     return path;
 }
 
+// Of fish that are all placed at every tick, as those of CountingWorld: no motor moves them.
+inline std::shared_ptr<school::SchoolMotion> stillMotion(const session::Admission& admission) {
+    return std::make_shared<school::SchoolMotion>(std::vector<school::Swimmers>{},
+                                                  admission.school,
+                                                  place::Obstacles{},
+                                                  config::SceneCurrent{});
+}
+
 // A render node that draws nothing.
 class StageNode {
   public:
@@ -230,7 +238,7 @@ class StageNode {
         wire::StateFrame built;
         built.show.look = admission.look;
         journal_.note({Event::Kind::Built, name_, built});
-        session_->prepared(admission.look, config::QualityTier::Low, session::motionOf(admission));
+        session_->prepared(admission.look, config::QualityTier::Low, stillMotion(admission));
     }
 
     session::Release show() {

@@ -241,7 +241,7 @@ bool seesAllFrames(session::Session& session,
                    std::atomic<std::uint64_t>& seen) {
     std::uint64_t next = 0;
     while (const auto admission = session.join()) {
-        session.prepared(1, config::QualityTier::Low, session::motionOf(*admission));
+        session.prepared(1, config::QualityTier::Low, test::stillMotion(*admission));
         while (const auto state = session.nextFrame()) {
             if (state->frame.value != next || state->tick.value != next) return false;
             if (session.readyThenWait(state->frame) == session::Release::Present) seen = ++next;

@@ -148,7 +148,7 @@ class SessionTest : public testing::Test {
     }
     void prepare(const std::optional<Admission>& admission) {
         ASSERT_TRUE(admission);
-        session_->prepared(1, config::QualityTier::Low, motionOf(*admission));
+        session_->prepared(1, config::QualityTier::Low, test::stillMotion(*admission));
     }
     void becomeMember(wire::Pace pace, Frame first) {
         auto join = joining();
