@@ -233,8 +233,7 @@ void lookAtMachine(Findings& findings, const DoctorOptions& options, const confi
     lookAtClock(findings, isAlone);
     lookAtCertificates(findings, options.rig);
     if (!config::needsKeys(rig)) return findings.pass("keys", "none are needed on one machine");
-    const fs::path folder =
-        options.keyFolder.empty() ? config::keyFolderOf(options.rig) : fs::path(options.keyFolder);
+    const fs::path folder = config::keyFolderOf(options.rig, options.keyFolder);
     lookAtKey(findings, folder, "master");
     for (const config::Channel& channel : rig.channels) lookAtKey(findings, folder, channel.name);
 }
@@ -395,11 +394,12 @@ bool lookAtShow(Findings& findings, const DoctorOptions& options, const config::
                               status.skew_p99_ms()));
     if (status.has_journal()) lookAtJournal(findings, status.journal());
     if (status.has_standby())
-        findings.judge(wire::standbyProblem(status.standby()).empty(),
-                       Verdict::Warn,
-                       "standby",
-                       wire::standbyText(status.standby()),
-                       "start it on the other machine: aquarama standby RIG, or its service");
+        findings.judge(
+            wire::standbyProblem(status.standby()).empty(),
+            Verdict::Warn,
+            "standby",
+            wire::standbyText(status.standby()),
+            "start Aquarama on the other machine; its log says why it does not simulate along");
     for (const v1::NodeStatus& node : status.nodes()) lookAtNode(findings, rig, node);
     return true;
 }

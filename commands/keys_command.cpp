@@ -39,9 +39,7 @@ struct KeyOptions {
     std::string name;    // whose key
     std::string out;     // of a bundle; empty: NAME.key here
 
-    [[nodiscard]] fs::path keys() const {
-        return folder.empty() ? config::keyFolderOf(rig) : fs::path(folder);
-    }
+    [[nodiscard]] fs::path keys() const { return config::keyFolderOf(rig, folder); }
 };
 
 // Why the clock is certainly wrong; empty where it may be right.

@@ -38,7 +38,7 @@ void addNode(const Figures& node, const v1::NodeStatus& from) {
     node.counter("node_late_total", "Deadlines that it missed", from.late());
     node.counter("node_dropped_total", "Times it fell silent", from.dropped());
     node.counter("node_hash_mismatches_total",
-                 "States that it decoded to another hash",
+                 "Steps after which its fish were others than the master's",
                  from.hash_mismatches());
     node.gauge("node_picture_median_ms",
                "From a frame's state to its finished picture, median",

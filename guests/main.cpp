@@ -51,8 +51,7 @@ void describe(CLI::App& app, Options& options) {
 std::string keyOf(const Options& options, const config::Rig& rig) {
     if (!config::needsKeys(rig)) return {};
     if (!options.key.empty()) return options.key;
-    const auto folder = options.keys.empty() ? config::keyFolderOf(options.rig)
-                                             : std::filesystem::path(options.keys);
+    const auto folder = config::keyFolderOf(options.rig, options.keys);
     return config::keyFileIn(folder, config::nameOf(config::KeyRole::Guests)).string();
 }
 

@@ -103,8 +103,7 @@ void PictureHub::hear(const net::FromPeer& from) {
 std::optional<net::MasterKeys> watchKeysOf(const std::string& rigPath,
                                            const std::string& keyFolder) {
     if (!config::needsKeys(config::readRig(rigPath))) return std::nullopt;
-    const std::filesystem::path folder =
-        keyFolder.empty() ? config::keyFolderOf(rigPath) : std::filesystem::path(keyFolder);
+    const std::filesystem::path folder = config::keyFolderOf(rigPath, keyFolder);
     const config::KeyFile own = config::readKeyFile(config::keyFileIn(folder, "master"));
     const auto allowed = [folder] {
         net::Allowed nodes;

@@ -108,6 +108,7 @@ std::optional<v1::Envelope> RequestClient::hear(v1::Envelope::MessageCase reply,
                                                 net::Duration atMost) {
     std::optional<v1::Envelope> newest;
     for (const auto& channels : channels_) {
+        if (newest) break;
         channels->wait(atMost / static_cast<int>(channels_.size()));
         while (const auto bytes = channels->receiveControl()) {
             auto message = wire::decode(*bytes);
@@ -118,10 +119,10 @@ std::optional<v1::Envelope> RequestClient::hear(v1::Envelope::MessageCase reply,
     return newest;
 }
 
-// A machine that stands by answers at once; the master may need longer.
+// A machine that stands by answers at once; the other one may still be taking over.
 v1::Envelope RequestClient::ask(const v1::Envelope& question, v1::Envelope::MessageCase reply) {
     constexpr net::Duration kPatience = std::chrono::seconds(2);
-    const net::Duration forMaster = std::chrono::milliseconds(channels_.size() == 1 ? 0 : 500);
+    const net::Duration forMaster = std::chrono::milliseconds(channels_.size() == 1 ? 0 : 1800);
     const std::vector<wire::Packet> packets =
         wire::partsOf(wire::encode(0, question), freshRequest());
     // A large question is on its way for a while.

@@ -89,6 +89,10 @@ fs::path keyFolderOf(const std::string& rigPath) {
     return userFolder("XDG_CONFIG_HOME", ".config") / "keys" / fs::path(rigPath).stem();
 }
 
+fs::path keyFolderOf(const std::string& rigPath, const std::string& chosen) {
+    return chosen.empty() ? keyFolderOf(rigPath) : fs::path(chosen);
+}
+
 fs::path keyFileIn(const fs::path& folder, std::string_view name) {
     return folder / (std::string(name) + std::string(kEnding));
 }

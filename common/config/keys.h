@@ -51,6 +51,9 @@ void writeKeyFile(const std::filesystem::path& path, const KeyFile& key);
 // Where the keys of a rig lie on the master's machine unless somebody says otherwise:
 // aquarama/keys/RIG in the user's configuration folder.
 [[nodiscard]] std::filesystem::path keyFolderOf(const std::string& rigPath);
+// `chosen`, or that folder where it is empty.
+[[nodiscard]] std::filesystem::path keyFolderOf(const std::string& rigPath,
+                                                const std::string& chosen);
 [[nodiscard]] std::filesystem::path keyFileIn(const std::filesystem::path& folder,
                                               std::string_view name);
 // All key files of a folder, by name. Throws Error where one is malformed; empty where there is no

@@ -109,6 +109,14 @@ std::string objectionTo(const std::string& url) {
 
 void checkStandby(const TextReader& file, const v1::Rig& in) {
     const v1::Standby& standby = in.standby();
+    constexpr std::size_t kMostNameBytes = 64;  // as messages have it
+    if (standby.machine().empty() || standby.machine().size() > kMostNameBytes ||
+        standby.machine() == "main")
+        file.refuse(
+            standby,
+            "machine",
+            "machine needs a name of up to 64 characters, other than \"main\", which is the "
+            "master's machine");
     const std::vector<std::string> taken{in.network().control(), in.network().state()};
     for (const auto& [field, address] :
          {std::pair("control", standby.control()), std::pair("state", standby.state())}) {

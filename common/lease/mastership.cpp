@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/lease/mastership.h"
 
-#include <ctime>
 #include <utility>
 
+#include "common/base/boot_clock.h"
 #include "common/base/log.h"
 
 namespace aquarama::lease {
@@ -14,13 +14,6 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kBetweenKeepAlives{150};
 constexpr milliseconds kBetweenAttempts{50};
-
-// CLOCK_BOOTTIME, nanoseconds.
-std::int64_t nowNs() {
-    timespec now{};
-    clock_gettime(CLOCK_BOOTTIME, &now);
-    return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
-}
 
 LeaseKeys keysOf(const std::string& show) {
     return {"aquarama/" + show + "/master", "aquarama/" + show + "/last-master"};
@@ -44,7 +37,7 @@ Mastership::~Mastership() {
 }
 
 bool Mastership::isHeld() const {
-    return nowNs() < heldUntilNs_;
+    return bootNanoseconds() < heldUntilNs_;
 }
 
 std::string Mastership::master() const {
@@ -95,7 +88,8 @@ void Mastership::sayDoubt() {
 
 void Mastership::sayTrouble(const std::string& problem) {
     if (std::exchange(isTroubled_, true)) return;
-    logWarning("etcd does not answer, so that nobody becomes master: {}", problem);
+    logWarning("etcd gives no good answer; while that lasts nobody becomes or stays the master: {}",
+               problem);
 }
 
 void Mastership::sayHolder(const std::optional<LeaseHolder>& holder) {
@@ -109,7 +103,7 @@ void Mastership::campaign(std::optional<milliseconds> patience) {
 }
 
 bool Mastership::isTime() {
-    const std::int64_t now = nowNs(), patience = patienceNs_;
+    const std::int64_t now = bootNanoseconds(), patience = patienceNs_;
     if (freeSinceNs_ == 0) freeSinceNs_ = now;
     return patience != kNever && now - freeSinceNs_ >= patience;
 }
@@ -128,7 +122,7 @@ void Mastership::stepAsCandidate() {
 
 // The lease is granted only when there is something to take.
 void Mastership::takeAsCandidate() {
-    const std::int64_t sentNs = nowNs();
+    const std::int64_t sentNs = bootNanoseconds();
     if (!lease_ || client_.keepAlive(*lease_) == 0) grant();
     const Taken taken = client_.take(keys_, name_, *lease_, 0);
     if (taken.revision) return gain(*taken.revision, sentNs);
@@ -159,7 +153,7 @@ void Mastership::gain(std::uint64_t revision, std::int64_t sentNs) {
 }
 
 void Mastership::stepAsMaster() {
-    const std::int64_t sentNs = nowNs();
+    const std::int64_t sentNs = bootNanoseconds();
     if (isExpired_ || client_.keepAlive(*lease_) == 0) return takeAgain();
     heldUntilNs_ = sentNs + std::chrono::nanoseconds(kAnswerCounts).count();
 }
@@ -169,7 +163,7 @@ void Mastership::stepAsMaster() {
 void Mastership::takeAgain() {
     isExpired_ = true;
     heldUntilNs_ = 0;
-    const std::int64_t sentNs = nowNs();
+    const std::int64_t sentNs = bootNanoseconds();
     if (client_.keepAlive(*lease_) == 0) grant();
     const Taken taken = client_.take(keys_, name_, *lease_, revision_);
     if (taken.revision) return gain(*taken.revision, sentNs);

@@ -5,19 +5,25 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "common/motion/motion_state.h"
 #include "common/motion/repertoire.h"
+#include "common/motion/warp_plans.h"
 
 namespace aquarama::motion {
 
 // The tables that the step reads, made once from a repertoire by exact arithmetic (no libm), the
 // same on every machine. They are immutable, so all threads may share them.
 class MotorTables;
-[[nodiscard]] std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire);
+// Plans of warps take most of the time: `keep` may return those that `make` made of the same
+// repertoire before, instead of calling it.
+using KeepWarpPlans = std::function<WarpPlans(const std::function<WarpPlans()>& make)>;
+[[nodiscard]] std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire,
+                                                                 const KeepWarpPlans& keep = {});
 
 // The way that each fish is carried in the coming tick, by the water and by contact, in units of
 // 2^-16 m, by index. Its speed and what it plays are relative to the water.

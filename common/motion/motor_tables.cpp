@@ -376,7 +376,8 @@ std::int32_t factsOf(const MotorTables& tables, std::uint32_t segment) {
 
 }  // namespace
 
-std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire) {
+std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire,
+                                                   const KeepWarpPlans& keep) {
     auto tables = std::make_shared<MotorTables>();
     std::array<std::int16_t, kActions> phaseRates{};
     for (std::size_t i = 0; i < kActions; ++i) {
@@ -405,7 +406,8 @@ std::shared_ptr<const MotorTables> makeMotorTables(const Repertoire& repertoire)
     for (std::uint32_t segment = 0; segment < kSegments; ++segment)
         tables->facts[segment] = factsOf(*tables, segment);
     tables->loss = lossOf(repertoire.response, tables->segments);
-    tables->warps = planWarps(repertoire, phaseRates);
+    const auto make = [&] { return planWarps(repertoire, phaseRates); };
+    tables->warps = keep ? keep(make) : make();
     return tables;
 }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <numbers>
 #include <thread>
 #include <utility>
 
@@ -10,6 +12,8 @@
 
 namespace aquarama::school {
 namespace {
+
+using motion::Action;
 
 // Half the width of a body, as a share of its length.
 constexpr float kHalfWidth = 0.06F;
@@ -33,6 +37,101 @@ glm::vec3 positionOf(const motion::MotionStates& states, std::size_t fish) {
             static_cast<float>(states.y[fish]) * motion::kPositionUnitMetres,
             static_cast<float>(states.z[fish]) * motion::kPositionUnitMetres};
 }
+
+// A fish of a school that nobody leads.
+struct Lone {
+    const motion::MotorTables& tables;
+    const place::Obstacles& obstacles;
+    float lengthMetres;
+    SchoolState& school;
+    std::size_t fish;
+
+    [[nodiscard]] Action commanded() const {
+        return static_cast<Action>(school.commands.action[fish]);
+    }
+    void command(Action action) {
+        if (action == commanded()) return;
+        school.commands.action[fish] = static_cast<std::uint8_t>(action);
+        school.commands.phaseRate[fish] = motion::recordedPhaseRate(tables, action);
+    }
+    // What it lacks to the pitch that it is to have, as sines.
+    [[nodiscard]] float pitchError() const {
+        const glm::vec3 nose =
+            motion::meanRotation(tables, school.states, fish) * glm::vec3{1, 0, 0};
+        return static_cast<float>(school.commands.pitch[fish]) * kPitchUnit - nose.y;
+    }
+    // Not where the slope would overshoot before it is ended.
+    [[nodiscard]] bool takesSlope(Action gait, float error) const {
+        const float rate = motion::recordedPitchRate(tables, motion::slopeOf(gait, true));
+        return std::abs(error) > kSecondsToEnd * std::abs(rate);
+    }
+    void goOnward() {
+        const Action present = commanded();
+        if (motion::isPitch(present) || motion::isPivot(present) || present == Action::Retreat)
+            return command(Action::Hover);
+        if (motion::isTurn(present) || motion::isStart(present))
+            return command(motion::gaitOf(present));
+        if (!motion::isForward(present) && !motion::isSlope(present)) return;
+        const Action gait = motion::gaitOf(present);
+        const float error = pitchError();
+        command(takesSlope(gait, error) ? motion::slopeOf(gait, error > 0) : gait);
+    }
+    // The turn of a circle is that of its curve, and what fins add where that is too wide.
+    [[nodiscard]] float speed() const {
+        return lengthMetres * motion::recordedSpeedBodyLengths(tables, Action::CurveLeftWideSlow);
+    }
+    [[nodiscard]] float turnRate(Action curve) const {
+        return motion::recordedTurnRate(tables, motion::firstSegmentOf(curve));
+    }
+    [[nodiscard]] float radius(Action curve) const {
+        return std::min(speed() / std::max(std::abs(turnRate(curve)), kLeastTurnRate),
+                        kWidestMetres);
+    }
+    // Of places on the circle that it swims by this curve, how many have no room for it.
+    [[nodiscard]] int obstructed(Action curve) const {
+        constexpr int kPlaces = 16;
+        const motion::BodyFrame body = motion::bodyFrameOf(school.states, fish);
+        const glm::vec3 nose = body.rotation * glm::vec3{1, 0, 0};
+        const glm::vec3 ahead = glm::normalize(glm::vec3{nose.x, 0, nose.z});
+        const glm::vec3 left{ahead.z, 0, -ahead.x};
+        const float wide = radius(curve);
+        const float side = curve == Action::CurveLeftWideSlow ? wide : -wide;
+        int count = 0;
+        for (int place = 1; place < kPlaces; ++place) {
+            const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(place) / kPlaces;
+            const glm::vec3 at = body.position + wide * std::sin(angle) * ahead +
+                                 side * (1 - std::cos(angle)) * left;
+            if (place::contactVelocity(obstacles, at, lengthMetres) != glm::vec3{}) ++count;
+        }
+        return count;
+    }
+    void circle() {
+        motion::MotorCommands& commands = school.commands;
+        commands.brake[fish] = commands.mouth[fish] = 0;
+        commands.pitch[fish] = commands.yawRate[fish] = 0;
+        const Action present = commanded();
+        if (motion::staysInPlace(present)) return command(Action::Hover);
+        const float error = pitchError();
+        if (takesSlope(Action::ForwardSlow, error))
+            return command(motion::slopeOf(Action::ForwardSlow, error > 0));
+        using enum Action;
+        Action curve = present;
+        if (present != CurveLeftWideSlow && present != CurveRightWideSlow)
+            curve = obstructed(CurveLeftWideSlow) <= obstructed(CurveRightWideSlow)
+                        ? CurveLeftWideSlow
+                        : CurveRightWideSlow;
+        command(curve);
+        const float lacks = speed() / radius(curve) - std::abs(turnRate(curve));
+        const float added = std::max(lacks, 0.0F) / static_cast<float>(kTicksPerSecond);
+        commands.yawRate[fish] = static_cast<std::int16_t>(
+            motion::roundToEven((curve == CurveLeftWideSlow ? added : -added) / motion::kYawUnit));
+    }
+
+    static constexpr float kPitchUnit = 1.0F / 32768;  // of MotorCommands::pitch
+    static constexpr float kSecondsToEnd = 0.4F;       // a slope: a command, and its warp
+    static constexpr float kLeastTurnRate = 0.01F;     // radians a second
+    static constexpr float kWidestMetres = 2.5F;       // a circle, its radius
+};
 
 }  // namespace
 
@@ -89,6 +188,17 @@ void SchoolMotion::advance(SchoolState& school) {
             .run();
     });
     ++school.tick.value;
+}
+
+void SchoolMotion::command(SchoolState& school, Alone way) const {
+    for (const Swimmers& own : chunks_) {
+        for (std::size_t fish = own.first; fish < own.last; ++fish) {
+            if (motion::isAway(school.states, fish)) continue;
+            const float length = static_cast<float>(traits_[fish].lengthMillimetres) * 0.001F;
+            Lone one{*own.tables, obstacles_, length, school, fish};
+            way == Alone::InCircles ? one.circle() : one.goOnward();
+        }
+    }
 }
 
 }  // namespace aquarama::school

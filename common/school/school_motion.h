@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -53,6 +54,12 @@ class SchoolMotion {
     [[nodiscard]] std::size_t fish() const { return traits_.size(); }
     // One tick. The commands are those of the tick; who is placed in it is set afterwards.
     void advance(SchoolState& school);
+    // What fish do that nobody leads. Onward: each goes on as it was told, but ends turns, and
+    // climbs and dives once it has its pitch. InCircles: each that swims goes slowly in a wide
+    // level circle, to the side where it has more room. Those that hover stay where they are.
+    enum class Alone : std::uint8_t { Onward, InCircles };
+    // Commands all fish so; a few times a second. Not in the tick of a master.
+    void command(SchoolState& school, Alone way) const;
 
   private:
     std::vector<Swimmers> chunks_;  // small enough to share out

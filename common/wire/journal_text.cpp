@@ -54,7 +54,7 @@ std::string journalProblem(const v1::JournalStatus& journal) {
 }
 
 std::string standbyText(const v1::StandbyStatus& standby) {
-    return standby.master() + " is the master for " + durationOf(standby.master_s()) + "; " +
+    return standby.master() + " is the master (for " + durationOf(standby.master_s()) + "); " +
            (standby.has_machine() ? standby.machine() + " simulates along"
                                   : "no machine simulates along");
 }
@@ -62,7 +62,7 @@ std::string standbyText(const v1::StandbyStatus& standby) {
 std::string standbyProblem(const v1::StandbyStatus& standby) {
     if (standby.has_machine()) return {};
     return "nobody would take over from " + standby.master() +
-           ": no machine simulates along; see the log of the other one";
+           ": no machine simulates along; see the log of the other machine";
 }
 
 std::string wentOnText(const v1::JournalStatus& journal) {

@@ -17,7 +17,7 @@ namespace aquarama::wire {
 // "the world goes on from 0:00:15, away for 2 s"; empty for a new world.
 [[nodiscard]] std::string wentOnText(const v1::JournalStatus& journal);
 
-// "main is the master for 3 min; spare simulates along".
+// "main is the master (for 3 min); spare simulates along".
 [[nodiscard]] std::string standbyText(const v1::StandbyStatus& standby);
 // What somebody has to look after; empty where the other machine would take over.
 [[nodiscard]] std::string standbyProblem(const v1::StandbyStatus& standby);

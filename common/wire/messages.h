@@ -44,7 +44,7 @@ inline constexpr float kAllColour = 255;  // of Show.colour_returned
 // The fields of a larger packet are counted before it is parsed. Nothing larger goes from a node to
 // the master.
 inline constexpr std::size_t kMostSmallPacketBytes = std::size_t{64} << 10U;
-inline constexpr std::size_t kMostPacketBytes = std::size_t{64} << 20U;  // two states of kMostFish
+inline constexpr std::size_t kMostPacketBytes = std::size_t{64} << 20U;  // a keyframe of kMostFish
 
 // The packet of a message of the master's run `session`; 0 from a node that has not been welcomed.
 [[nodiscard]] Packet encode(std::uint64_t session, v1::Envelope envelope);

@@ -45,21 +45,21 @@ Gauges::Gauges(const Roster& roster, std::uint16_t port)
 NodeFigures Gauges::figuresOf(const NodeSeat& seat) {
     net::Metrics& m = metrics_;
     const net::Labels node{{"node", seat.name}};
-    return {
-        .condition =
-            m.gauge("aquarama_node_condition", "1 absent, 2 preparing, 3 in step, 4 late", node),
-        .late = m.counter("aquarama_node_late_total", "Deadlines that it missed", node),
-        .dropped = m.counter("aquarama_node_dropped_total", "Times it fell silent", node),
-        .mismatches = m.counter(
-            "aquarama_node_hash_mismatches_total", "States that it decoded to another hash", node),
-        .roundTrip =
-            m.gauge("aquarama_node_round_trip_seconds", "Median of its pings of ten seconds", node),
-        .drift = m.gauge("aquarama_node_clock_drift_ppm",
-                         "By which the master's clock is faster than its own",
-                         node),
-        .celsius = m.gauge("aquarama_node_gpu_celsius",
-                           "Temperature of its graphics card; 0 where none is told",
-                           node)};
+    return {.condition = m.gauge(
+                "aquarama_node_condition", "1 absent, 2 preparing, 3 in step, 4 late", node),
+            .late = m.counter("aquarama_node_late_total", "Deadlines that it missed", node),
+            .dropped = m.counter("aquarama_node_dropped_total", "Times it fell silent", node),
+            .mismatches = m.counter("aquarama_node_hash_mismatches_total",
+                                    "Steps after which its fish were others than the master's",
+                                    node),
+            .roundTrip = m.gauge(
+                "aquarama_node_round_trip_seconds", "Median of its pings of ten seconds", node),
+            .drift = m.gauge("aquarama_node_clock_drift_ppm",
+                             "By which the master's clock is faster than its own",
+                             node),
+            .celsius = m.gauge("aquarama_node_gpu_celsius",
+                               "Temperature of its graphics card; 0 where none is told",
+                               node)};
 }
 
 JournalFigures Gauges::figuresOfJournal() {

@@ -20,9 +20,9 @@ JournalReport::JournalReport(v1::JournalStatus::Condition condition, const std::
     if (!reason.empty()) status_.set_reason(legible(reason, wire::kMostReasonBytes));
 }
 
-void JournalReport::saved() {
+void JournalReport::saved(net::Moment now) {
     const std::lock_guard lock(mutex_);
-    savedAt_ = net::monotonicNow();
+    savedAt_ = now;
 }
 
 void JournalReport::measured(const JournalSizes& sizes) {

@@ -34,8 +34,8 @@ class JournalReport {
     class DiskUse {
       public:
         // `report` outlives it.
-        explicit DiskUse(JournalReport& report)
-            : report_{report}, before_{report.askedAt_.exchange(net::monotonicNow())} {}
+        explicit DiskUse(JournalReport& report, net::Moment now = net::monotonicNow())
+            : report_{report}, before_{report.askedAt_.exchange(now)} {}
         ~DiskUse() { report_.askedAt_ = before_; }
         DiskUse(const DiskUse&) = delete;
         DiskUse& operator=(const DiskUse&) = delete;
@@ -46,7 +46,7 @@ class JournalReport {
     };
 
     // The newest save was written just now.
-    void saved();
+    void saved(net::Moment now = net::monotonicNow());
     // The bytes of now.
     void measured(const JournalSizes& sizes);
     // Nothing is written from now on, until goesOn().

@@ -44,8 +44,8 @@ struct NodeSeat {
     std::uint32_t builtLook = 0;                    // the newest that the node has built
     std::optional<config::QualityTier> bears = {};  // the finest tier that it has kept up with
     net::Moment lastHeard = {};
-    std::uint64_t dropped = 0;                          // how often it fell silent
-    std::uint64_t mismatches = 0;                       // states decoded to another hash
+    std::uint64_t dropped = 0;     // how often it fell silent
+    std::uint64_t mismatches = 0;  // steps after which its fish were others than the master's
     std::shared_ptr<const v1::NodeReport> report = {};  // the node's last
     std::optional<net::Blanks> blanks = {};             // of its display, in the master's clock
     net::Moment lastFed = {};                           // when food was last dropped in its window

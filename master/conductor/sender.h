@@ -36,6 +36,13 @@ class Sender {
         message.mutable_dismissed()->set_reason(why);
         say(peer, std::move(message));
     }
+    // The same, as another machine is the master from now on.
+    void handOver(const net::PeerId& peer) const {
+        v1::Envelope message;
+        message.mutable_dismissed()->set_reason("the master changes");
+        message.mutable_dismissed()->set_hands_over(true);
+        say(peer, std::move(message));
+    }
 
   private:
     std::uint64_t session_;

@@ -49,7 +49,8 @@ std::string StandbyFeed::objectionTo(const v1::Follow& follow) const {
 void StandbyFeed::refuse(const net::PeerId& peer,
                          const v1::Follow& follow,
                          const std::string& objection) {
-    if (objections_.insert(objection).second)
+    constexpr std::size_t kMostObjections = 100;
+    if (objections_.size() < kMostObjections && objections_.insert(objection).second)
         logWarning("refused standby {}: {}", follow.machine(), objection);
     v1::Envelope refusal;
     refusal.mutable_refusal()->set_reason(objection);
@@ -60,7 +61,7 @@ void StandbyFeed::hear(const net::PeerId& peer, const v1::Follow& follow, net::M
     if (const std::string objection = objectionTo(follow); !objection.empty())
         return refuse(peer, follow, objection);
     if (!peer_.empty() && follow.machine() != machine_)
-        return sender_.dismiss(peer, machine_ + " stands by already");
+        return refuse(peer, follow, machine_ + " stands by already");
     const bool knowsStream = peer == peer_ && follow.stream() == stream_;
     peer_ = peer;
     machine_ = follow.machine();

@@ -42,7 +42,7 @@ class StandbyFeed {
     void beginAgain();
     // Sends what the world has for it.
     void turn(Simulation& simulation, const FollowedShow& show, net::Moment now);
-    // Its master ends with the show, and nobody is to take over.
+    // Its master ends with the show, which nobody is to take over.
     void sayFarewell();
     [[nodiscard]] bool isThere() const { return !peer_.empty(); }
     // The machine that simulates along; empty: there is none.

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "common/base/amounts.h"
+#include "common/base/boot_clock.h"
 #include "common/base/counted.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
@@ -20,9 +21,6 @@ namespace aquarama::journal {
 namespace {
 
 constexpr std::uint64_t kTicksBetweenHashes = 60;
-// What a world that goes on makes up for: ticks, and the time that this may take.
-constexpr std::uint64_t kMostTicksAway = 3600;
-constexpr std::chrono::milliseconds kMostTimeAway{1500};
 constexpr std::uint64_t kTicksBetweenWarnings = 3600;
 
 // Names the start of this machine, with which CLOCK_BOOTTIME begins anew.
@@ -35,11 +33,8 @@ std::string bootOf() {
 
 wire::RecordedMoment momentAt(Tick tick) {
     static const std::string boot = bootOf();
-    timespec now{};
-    clock_gettime(CLOCK_BOOTTIME, &now);
     return {.tick = tick,
-            .clockNs = static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000 +
-                       static_cast<std::uint64_t>(now.tv_nsec),
+            .clockNs = static_cast<std::uint64_t>(bootNanoseconds()),
             .boot = boot,
             .unixSeconds = static_cast<std::uint64_t>(std::time(nullptr))};
 }
@@ -133,7 +128,10 @@ std::optional<std::vector<wire::RecordedInput>> goOn(simulation::LivingWorld& wo
     const std::vector<wire::RecordedInput>& inputs = last.recording.inputs;
     const auto first = std::ranges::lower_bound(inputs, restored, {}, &wire::RecordedInput::tick);
     const Tick due = dueNow(last.recording, restored, timeAway);
-    const auto next = advanceTo(world, due, begin + kMostTimeAway, {first, inputs.end()});
+    // What was shown comes first: it is not shown again.
+    const Tick known = std::min(lastKnown(last.recording, restored), due);
+    const auto lived = advanceTo(world, known, begin + kMostTimeKnown, {first, inputs.end()});
+    const auto next = advanceTo(world, due, begin + kMostTimeAway, {lived, inputs.end()});
     logInfo("the world goes on at {} from its save at {}, with {}",
             timeOf(world.tick()),
             timeOf(restored),
@@ -152,12 +150,12 @@ JournalledWorld::JournalledWorld(std::unique_ptr<simulation::LivingWorld> world,
       living_(std::move(world)),
       journal_(std::move(journal)),
       relay_(wire::beginningOf(assets, wire::Repertoires::Named)) {
-    for (const wire::RecordedInput& input : ahead) put(input.tick, simulation::inputOf(input));
+    for (const wire::RecordedInput& input : ahead) applyAt(input.tick, simulation::inputOf(input));
 }
 
-void JournalledWorld::put(Tick tick, const world::WorldInput& input) {
+void JournalledWorld::put(Tick tick, const world::WorldInput& input, bool isOwn) {
     const wire::Packet entry = wire::entryOf(simulation::recorded(tick, input));
-    ahead_.push_back({tick, journal_->add(entry), input});
+    ahead_.push_back({tick, journal_->add(entry), isOwn, input});
     relay_.add(entry);
 }
 
@@ -171,7 +169,7 @@ void JournalledWorld::beginFollowed() {
 // Inputs keep their order.
 void JournalledWorld::apply(const world::WorldInput& input) {
     const Tick soonest{world_.tick().value + (isRunning_ ? kTicksAhead : 0)};
-    put(ahead_.empty() ? soonest : std::max(soonest, ahead_.back().tick), input);
+    put(ahead_.empty() ? soonest : std::max(soonest, ahead_.back().tick), input, true);
     if (!isRunning_) applyDue();
 }
 
@@ -201,8 +199,9 @@ void JournalledWorld::note(const wire::Packet& entry) {
 
 void JournalledWorld::applyDue() {
     while (!ahead_.empty() && ahead_.front().tick <= world_.tick()) {
-        if (isRunning_ && !journal_->isOnDisk(ahead_.front().number)) noteLate();
-        world_.apply(ahead_.front().input);
+        const Ahead& next = ahead_.front();
+        if (isRunning_ && next.isOwn && !journal_->isOnDisk(next.number)) noteLate();
+        world_.apply(next.input);
         ahead_.pop_front();
     }
 }
@@ -217,6 +216,12 @@ void JournalledWorld::noteLate() {
     logWarning("what a visitor did took effect before the journal's disk had it");
 }
 
+std::unique_ptr<simulation::LivingWorld> emptyWorld(const simulation::Assets& assets) {
+    world::WorldOptions options = simulation::worldOptionsOf(assets);
+    options.scene.livedSeconds = 0;
+    return std::make_unique<simulation::LivingWorld>(options);
+}
+
 std::unique_ptr<JournalledWorld> makeJournalled(const std::filesystem::path& folder,
                                                 const simulation::Assets& assets,
                                                 TimeAway timeAway) {
@@ -224,9 +229,7 @@ std::unique_ptr<JournalledWorld> makeJournalled(const std::filesystem::path& fol
     std::optional<std::vector<wire::RecordedInput>> ahead;
     double awaySeconds = 0;
     if (const auto last = lastWorldIn(folder, assets.bytes)) {
-        world::WorldOptions options = simulation::worldOptionsOf(assets);
-        options.scene.livedSeconds = 0;
-        world = std::make_unique<simulation::LivingWorld>(options);
+        world = emptyWorld(assets);
         if (last->recording.moment) awaySeconds = secondsSince(*last->recording.moment);
         ahead = goOn(*world, *last, timeAway);
     }

@@ -2,6 +2,7 @@
 // A world that is journalled as it goes, and how one goes on from a journal.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
@@ -25,6 +26,14 @@ inline constexpr std::uint64_t kTicksAhead = 3;
 // Whether a world that goes on makes up for the time in which no master ran.
 enum class TimeAway : std::uint8_t { MadeUpFor, LeftOut };
 
+// What a world that goes on makes up for: ticks, and the time that this may take. Up to the last
+// known tick it may take longer.
+inline constexpr std::chrono::milliseconds kMostTimeKnown{10000};
+inline constexpr std::uint64_t kMostTicksAway = 3600;
+inline constexpr std::chrono::milliseconds kMostTimeAway{1500};
+// A world that is to be restored from a save: that has lived already.
+[[nodiscard]] std::unique_ptr<simulation::LivingWorld> emptyWorld(const simulation::Assets& assets);
+
 // Brings a world of the same options to where its journal left it: the newest save that can be
 // used, the inputs since then, and the ticks up to now by the clock of this machine; or up to the
 // last known one where time away is left out, was over a minute, or the machine was started anew.
@@ -47,8 +56,8 @@ class JournalledWorld final : public simulation::SimulationDecorator {
     void advance() override;
     // Before the first advance() it takes effect at once: nobody has seen the world yet.
     void apply(const world::WorldInput& input) override;
-    // An input of another machine's world, which this one follows.
-    void applyAt(Tick tick, const world::WorldInput& input) { put(tick, input); }
+    // An input of a world that this one follows, or goes on from: its tick is given.
+    void applyAt(Tick tick, const world::WorldInput& input) { put(tick, input, false); }
     void beginFollowed() override;
     [[nodiscard]] std::optional<conductor::JournalPiece> followed() override {
         return relay_.take();
@@ -60,9 +69,10 @@ class JournalledWorld final : public simulation::SimulationDecorator {
     struct Ahead {
         Tick tick;
         std::uint64_t number = 0;  // of its entry
+        bool isOwn = false;        // it came to this world: it waits for the disk
         world::WorldInput input;
     };
-    void put(Tick tick, const world::WorldInput& input);
+    void put(Tick tick, const world::WorldInput& input, bool isOwn);
     void noteNow();
     void applyDue();
     void noteLate();

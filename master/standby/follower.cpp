@@ -25,16 +25,9 @@ constexpr net::Duration kLongestWait = milliseconds(5);
 constexpr net::Duration kSilence = std::chrono::seconds(2);
 constexpr std::size_t kMostTicksATurn = 4;  // so that it is known when messages came
 constexpr std::uint64_t kMostTicksBehind = 30;
-// What a world that takes over makes up for, and the time that this may take.
-constexpr std::uint64_t kMostTicksAway = 3600;
-constexpr net::Duration kMostTimeAway = milliseconds(1500);
-
-// As simulation::makeJournalled() has it: a world that is restored has lived already.
-std::unique_ptr<simulation::LivingWorld> emptyWorld(const simulation::Assets& assets) {
-    world::WorldOptions options = simulation::worldOptionsOf(assets);
-    options.scene.livedSeconds = 0;
-    return std::make_unique<simulation::LivingWorld>(options);
-}
+// What is wrong may be put right while the master goes on: after a pause it tries again.
+constexpr net::Duration kPause = std::chrono::seconds(5);
+constexpr net::Duration kLongPause = std::chrono::minutes(1);
 
 }  // namespace
 
@@ -86,7 +79,8 @@ void Follower::read(const v1::Envelope& message) {
     lastHeard_ = net::monotonicNow();
     if (message.has_journalled()) {
         take(message.journalled());
-        if (stream_ != 0) lease_ = message.lease_revision();
+        // Of a master whose world is not here whole it is not the lease yet.
+        if (stream_ != 0 && buffer_.empty()) lease_ = message.lease_revision();
         return;
     }
     if (message.has_refusal() && refusal_ != message.refusal().reason()) {
@@ -95,7 +89,7 @@ void Follower::read(const v1::Envelope& message) {
     }
     if (message.has_farewell() && hasWorld()) {
         isOver_ = true;
-        logInfo("the master has ended the show; standing by for the next one");
+        logInfo("the master has ended the show");
     }
 }
 
@@ -125,15 +119,13 @@ void Follower::take(const v1::Journalled& part) {
 void Follower::takePiece(const wire::Packet& piece, Tick tick) {
     if (wire::isRecording(piece))
         tryToBegin(piece);
-    else if (world_)
-        goOn(piece);
+    else if (world_ && !goOn(piece))
+        return askAnew();
     known_ = tick;
     clock_.add(known_, net::monotonicNow());
 }
 
-// What is wrong may be put right while the master goes on.
 void Follower::tryToBegin(const wire::Packet& piece) {
-    constexpr net::Duration kPause = std::chrono::seconds(5);
     try {
         begin(piece);
         problem_.clear();
@@ -150,15 +142,20 @@ void Follower::begin(const wire::Packet& piece) {
     const wire::Recording sent = wire::decodeRecording(piece, "the master's world");
     if (sent.saves.size() != 1) return askAnew();
     world_.reset();
-    if (!assets_ || assetsOf_ != show_.scene || assets_->bytes.seed != sent.assets.seed) {
-        assets_ = options_.assets(show_.scene, sent.assets.seed);
-        assetsOf_ = show_.scene;
+    if (sent.assets.cast.empty()) throw Error("the master's world has no species");
+    const wire::SpeciesAssets& school = sent.assets.cast.front();
+    const WantedWorld wanted{show_.scene, sent.assets.seed, school.fish - school.drawings};
+    if (!assets_ || assetsOf_ != wanted) {
+        assets_ = options_.assets(wanted);
+        assetsOf_ = wanted;
     }
-    if (!journal::makeOneWorld(assets_->bytes, sent.assets))
+    if (!journal::makeOneWorld(assets_->bytes, sent.assets)) {
+        assets_.reset();  // to be read again
         throw Error("scene " + show_.scene +
                     " or a species of it is another one than the master's; copy the folder of the "
-                    "rig from there, and give the same options");
-    auto living = emptyWorld(*assets_);
+                    "rig from there");
+    }
+    auto living = journal::emptyWorld(*assets_);
     const wire::RecordedSave& save = sent.saves.front();
     living->restore(std::span(piece).subspan(save.at, save.bytes), sent.source);
     auto journal =
@@ -172,15 +169,21 @@ void Follower::begin(const wire::Packet& piece) {
 }
 
 // Read behind the beginning, so that every bound is checked.
-void Follower::goOn(const wire::Packet& entries) {
-    if (entries.empty()) return;
+bool Follower::goOn(const wire::Packet& entries) {
+    if (entries.empty()) return true;
     wire::Packet recording = beginning_;
     recording.insert(recording.end(), entries.begin(), entries.end());
-    const wire::Recording sent = wire::decodeRecording(recording, "the master's journal");
-    if (sent.bytesLeftOver != 0) return askAnew();
-    for (const wire::RecordedInput& input : sent.inputs)
-        world_->applyAt(input.tick, simulation::inputOf(input));
-    expected_.insert(expected_.end(), sent.checkpoints.begin(), sent.checkpoints.end());
+    try {
+        const wire::Recording sent = wire::decodeRecording(recording, "the master's journal");
+        if (sent.bytesLeftOver != 0) return false;
+        for (const wire::RecordedInput& input : sent.inputs)
+            world_->applyAt(input.tick, simulation::inputOf(input));
+        expected_.insert(expected_.end(), sent.checkpoints.begin(), sent.checkpoints.end());
+        return true;
+    } catch (const Error& error) {
+        logError("{}", error.what());
+        return false;
+    }
 }
 
 void Follower::advance(std::size_t mostTicks) {
@@ -200,7 +203,11 @@ void Follower::compare() {
             "machine's memory; it takes the master's next save",
             options_.machine,
             expected.tick.value);
-        return askAnew();
+        askAnew();
+        // A machine that is always wrong is not sent one save after the other.
+        const net::Moment now = net::monotonicNow();
+        if (now - std::exchange(lastDiffered_, now) < kLongPause) lastFollow_ = now + kLongPause;
+        return;
     }
 }
 
@@ -209,10 +216,11 @@ Follower::TakenOver Follower::takeOver() {
     const Tick stood = world_->tick();
     const auto due = [&] {
         const Tick now = clock_.tickAt(net::monotonicNow()).value_or(known_);
-        const bool isAway = now.value > known_.value + kMostTicksAway;
+        const bool isAway = now.value > known_.value + journal::kMostTicksAway;
         return show_.wanted.freeze() || isAway ? known_ : std::max(known_, now);
     };
-    while (world_->tick() < due() && net::monotonicNow() - begun < kMostTimeAway) world_->advance();
+    while (world_->tick() < due() && net::monotonicNow() - begun < journal::kMostTimeAway)
+        world_->advance();
     logInfo("{} takes over at {}; its world stood at tick {}, and goes on at tick {}",
             options_.machine,
             timeOf(world_->tick()),

@@ -25,13 +25,21 @@
 
 namespace aquarama::standby {
 
+// A world that a standby has to have.
+struct WantedWorld {
+    std::string scene;
+    std::uint32_t seed = 0;
+    std::uint32_t fish = 0;  // of the first species, without those that wait for drawings
+    friend bool operator==(const WantedWorld&, const WantedWorld&) = default;
+};
+
 // What a standby is, and where it has things from.
 struct FollowerOptions {
     std::string machine;            // its own name
     net::Connect connect;           // to the master
     std::filesystem::path journal;  // folder of its own journal
-    // The files of a scene on this machine, and a world of the master's seed.
-    std::function<simulation::Assets(const std::string& scene, std::uint32_t seed)> assets;
+    // The files of this machine for such a world.
+    std::function<simulation::Assets(const WantedWorld&)> assets;
 };
 
 // Used by one thread.
@@ -68,7 +76,8 @@ class Follower {
     void tryToBegin(const wire::Packet& piece);
     // Throws Error where this machine's files are not the master's.
     void begin(const wire::Packet& piece);
-    void goOn(const wire::Packet& entries);
+    // False: these are no entries that can go on from here.
+    [[nodiscard]] bool goOn(const wire::Packet& entries);
     void advance(std::size_t mostTicks);
     void compare();
     // Asks for a stream from a save on.
@@ -78,7 +87,7 @@ class Follower {
     std::unique_ptr<net::NodeChannels> channels_;
     std::unique_ptr<journal::JournalledWorld> world_;
     std::optional<simulation::Assets> assets_;  // of the world
-    std::string assetsOf_;                      // scene
+    WantedWorld assetsOf_;
     conductor::FollowedShow show_;
     wire::Packet beginning_;  // of the stream's recording, without its save
     wire::Packet buffer_;     // of a piece that goes on
@@ -88,7 +97,7 @@ class Follower {
     FollowedClock clock_;
     bool isOver_ = false, wasInStep_ = false;
     std::string refusal_, problem_;  // that were logged
-    net::Moment lastFollow_{}, lastHeard_;
+    net::Moment lastFollow_{}, lastHeard_, lastDiffered_{};
 };
 
 }  // namespace aquarama::standby

@@ -128,9 +128,7 @@ Process nodeProcess(const RunOptions& options,
                     const std::string& filmPipe) {
     std::vector<std::string> arguments{channel.name, "--master", rig.controlAddress};
     if (config::needsKeys(rig)) {
-        const std::string& folder = options.show.keyFolder;
-        const auto keys = folder.empty() ? config::keyFolderOf(options.show.rigPath)
-                                         : std::filesystem::path(folder);
+        const auto keys = config::keyFolderOf(options.show.rigPath, options.show.keyFolder);
         arguments = {"--key", config::keyFileIn(keys, channel.name).string()};
     }
     if (rig.standby) append(arguments, "--master", rig.standby->controlAddress);

@@ -13,6 +13,7 @@
 #include "common/school/school_motion.h"
 #include "master/world/world.h"
 #include "tests/master/world/captured_fish.h"
+#include "tests/master/world/node_motion.h"
 
 namespace aquarama::bench {
 namespace {
@@ -42,24 +43,14 @@ class Watch {
 void measure(benchmark::State& state, const world::WorldOptions& options) {
     constexpr int kLearning = 600;
     world::World world(options);
-    std::vector<school::RecordedRates> rates;
-    std::vector<school::Swimmers> swimmers;
-    std::uint32_t next = 0;
-    for (const world::WorldSpecies& species : options.cast) {
-        rates.push_back(school::recordedRates(*species.tables, next, next + species.fish));
-        swimmers.push_back({species.tables, next, next + species.fish});
-        next += species.fish;
-    }
-    school::SchoolMotion motion(std::move(swimmers),
-                                {world.traits().begin(), world.traits().end()},
-                                world.surroundings().obstacles,
-                                options.scene.current);
-    school::StepMemory memory = school::makeStepMemory(std::move(rates), next);
+    const auto motion = world::nodeMotion(options, world);
+    const std::size_t fish = world.states().size();
+    school::StepMemory memory = school::makeStepMemory(world::ratesOf(options), fish);
     motion::MotorCommands known = world.commands();
     std::vector<motion::FishRecord> records;
     world.records(records);
     school::Keyframe node =
-        *school::decodeKeyframe(school::encodeKeyframe(world.tick(), records, known, memory), next);
+        *school::decodeKeyframe(school::encodeKeyframe(world.tick(), records, known, memory), fish);
     Watch coding;
     Watch decoding;
     Watch moving;
@@ -69,7 +60,7 @@ void measure(benchmark::State& state, const world::WorldOptions& options) {
         world.advance();
         world.records(records);
         std::vector<school::PlacedFish> placed;
-        for (const std::uint32_t fish : world.placed()) placed.push_back({fish, records[fish]});
+        for (const std::uint32_t one : world.placed()) placed.push_back({one, records[one]});
         const auto step = codes.time([&] {
             return school::encodeStep(world.tick(), world.commands(), placed, known, memory);
         });
@@ -77,10 +68,10 @@ void measure(benchmark::State& state, const world::WorldOptions& options) {
             return school::decodeStep(world.tick(), step, node.school.commands, node.memory);
         });
         moves.time([&] {
-            motion.advance(node.school);
+            motion->advance(node.school);
             return 0;
         });
-        for (const school::PlacedFish& fish : *back) node.school.set(fish.fish, fish.record);
+        for (const school::PlacedFish& one : *back) node.school.set(one.fish, one.record);
         return step.size();
     };
     for (int tick = 0; tick < kLearning; ++tick) {
@@ -94,7 +85,7 @@ void measure(benchmark::State& state, const world::WorldOptions& options) {
     std::vector<motion::FishRecord> nodes;
     node.school.records(nodes);
     if (nodes != records) return state.SkipWithError("the node has other fish");
-    const double each = static_cast<double>(ticks) * static_cast<double>(next);
+    const double each = static_cast<double>(ticks) * static_cast<double>(fish);
     state.counters["bits_per_fish_frame"] = 8.0 * static_cast<double>(bytes) / each;
     state.counters["records_bits"] = 2 * 8 * sizeof(motion::FishRecord);
     state.counters["encode_ns"] = coding.nanoseconds() / each;

@@ -183,26 +183,29 @@ class MastershipTest : public testing::Test {
 TEST_F(MastershipTest, IsOfOneAndPassesOn) {
     const auto first = candidate("first");
     ASSERT_TRUE(comesTrue([&] { return first->isHeld(); }));
-    const auto second = candidate("second");
+    const std::uint64_t revision = first->revision();
+    const auto second = candidate("second", std::nullopt);
     ASSERT_TRUE(comesTrue([&] { return second->master() == "first"; }));
-    EXPECT_EQ(second->lastRevision(), first->revision());
+    EXPECT_EQ(second->lastRevision(), revision);
     std::this_thread::sleep_for(milliseconds(1500));  // longer than the lease
-    EXPECT_TRUE(first->isHeld());
-    EXPECT_FALSE(second->isHeld());
+    EXPECT_TRUE(comesTrue([&] { return first->isHeld(); }));
+    EXPECT_EQ(first->revision(), revision) << "it was renewed";
     first->resign();
     EXPECT_FALSE(first->isHeld());
-    const auto resigned = steady_clock::now();
+    ASSERT_TRUE(comesTrue([&] { return first->isLost(); }));
+    const LeaseKeys keys{"aquarama/desk/master", "aquarama/desk/last-master"};
+    EXPECT_FALSE(EtcdClient({{etcd_->url()}}).holder(keys)) << "nobody waits for the lease";
+    second->campaign(milliseconds{0});
     ASSERT_TRUE(comesTrue([&] { return second->isHeld(); }));
-    EXPECT_LT(steady_clock::now() - resigned, milliseconds(500)) << "nobody waits for the lease";
-    EXPECT_GT(second->revision(), first->revision());
-    EXPECT_TRUE(comesTrue([&] { return first->isLost(); }));
+    EXPECT_GT(second->revision(), revision);
 }
 
 TEST_F(MastershipTest, IsNobodysWithoutACandidacy) {
     const auto waits = candidate("waits", std::nullopt);
-    const auto patient = candidate("patient", milliseconds(600));
+    const auto patient = candidate("patient", std::chrono::hours(1));
     std::this_thread::sleep_for(milliseconds(500));
     EXPECT_EQ(waits->revision() + patient->revision(), 0U);
+    patient->campaign(milliseconds{100});
     EXPECT_TRUE(comesTrue([&] { return patient->isHeld(); }));
     EXPECT_FALSE(waits->isHeld());
 }
@@ -213,9 +216,8 @@ TEST_F(MastershipTest, EndsByItsOwnClockWhereEtcdIsSilent) {
     ASSERT_TRUE(comesTrue([&] { return only->isHeld(); }));
     const std::uint64_t revision = only->revision();
     etcd_->hold();
-    const auto held = steady_clock::now();
+    static_assert(kAnswerCounts < std::chrono::seconds(kLeaseSeconds));
     ASSERT_TRUE(comesTrue([&] { return !only->isHeld(); }));
-    EXPECT_LT(steady_clock::now() - held, milliseconds(kLeaseSeconds * 1000));
     EXPECT_FALSE(only->isLost()) << "nobody else may have it yet";
     etcd_->letGo();
     ASSERT_TRUE(comesTrue([&] { return only->isHeld(); })) << "nobody else was the master";

@@ -14,18 +14,20 @@ namespace {
 
 using std::chrono::seconds;
 
-net::Moment in(int passed) {
-    return net::monotonicNow() + seconds(passed);
+constexpr net::Moment kNow{seconds(1000)};
+
+constexpr net::Moment in(int passed) {
+    return kNow + seconds(passed);
 }
 
 TEST(JournalReport, itTellsTheAgeOfTheNewestSaveAndTheBytes) {
     JournalReport report;
     EXPECT_FALSE(report.status(in(0)).has_save_age_s());
-    report.saved();
+    report.saved(kNow);
     report.measured({.file = 12'000'000, .folder = 140'000'000, .free = 80'000'000'000});
     const v1::JournalStatus status = report.status(in(3));
     EXPECT_EQ(status.condition(), v1::JournalStatus::WRITTEN);
-    EXPECT_NEAR(status.save_age_s(), 3, 0.4);
+    EXPECT_EQ(status.save_age_s(), 3);
     EXPECT_EQ(wire::journalText(status),
               "written, newest save 3 s old, file 12 MB, folder 140 MB, disk 80 GB free");
     EXPECT_EQ(wire::journalProblem(status), "");
@@ -48,13 +50,13 @@ TEST(JournalReport, aPauseHasItsReasonUntilTheJournalGoesOn) {
 // A world that stands still saves nothing, and its disk is asked for nothing: that is no problem.
 TEST(JournalReport, aDiskThatDoesNotAnswerForThreeSecondsIsWaitedFor) {
     JournalReport report;
-    report.saved();
+    report.saved(kNow);
     EXPECT_EQ(report.status(in(3600)).condition(), v1::JournalStatus::WRITTEN);
     {
-        const JournalReport::DiskUse use(report);
+        const JournalReport::DiskUse use(report, kNow);
         EXPECT_EQ(report.status(in(2)).condition(), v1::JournalStatus::WRITTEN);
         EXPECT_EQ(report.status(in(4)).condition(), v1::JournalStatus::WAITING);
-        { const JournalReport::DiskUse within(report); }
+        { const JournalReport::DiskUse within(report, in(3)); }
         EXPECT_EQ(report.status(in(4)).condition(), v1::JournalStatus::WAITING);
         EXPECT_EQ(wire::journalProblem(report.status(in(4))),
                   "the journal waits for its disk: it stands still");

@@ -21,6 +21,7 @@
 #include "master/simulation/living_world.h"
 #include "render_node/session/school_follower.h"
 #include "tests/master/world/lively_worlds.h"
+#include "tests/master/world/node_motion.h"
 
 namespace aquarama::conductor {
 namespace {
@@ -28,21 +29,6 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr net::Duration kFrame = milliseconds(16);
-
-std::shared_ptr<school::SchoolMotion> motionIn(const world::WorldOptions& options,
-                                               const world::World& world) {
-    std::vector<school::Swimmers> swimmers;
-    std::size_t next = 0;
-    for (const world::WorldSpecies& species : options.cast) {
-        swimmers.push_back({species.tables, next, next + species.fish});
-        next += species.fish;
-    }
-    return std::make_shared<school::SchoolMotion>(
-        std::move(swimmers),
-        std::vector(world.traits().begin(), world.traits().end()),
-        world.surroundings().obstacles,
-        options.scene.current);
-}
 
 // A living world, its stream, and a node that follows it. What the node asks is answered at once.
 class Followed {
@@ -52,7 +38,7 @@ class Followed {
           world_(options_),
           follower_([this](v1::Envelope message) { answer(message); }) {
         stream_.begin(world_.recordedRates());
-        follower_.use(1, motionIn(options_, world_.world()));
+        follower_.use(1, world::nodeMotion(options_, world_.world()));
         last_ = world_.snapshot();
         stream_.add(last_);
         remember();
@@ -155,7 +141,7 @@ TEST(SchoolStream, aNodeThatHasLostTheStreamFindsItAgain) {
     Followed followed("reef_1998");
     const auto motion = [] {
         const world::WorldOptions options = world::optionsFor("reef_1998");
-        return motionIn(options, world::World(options));
+        return world::nodeMotion(options, world::World(options));
     }();
     int shown = 0;
     int sinceShown = 0;
