@@ -32,6 +32,19 @@ void Mailbox::start(wire::Pace pace, Frame first) {
     changed_.notify_all();
 }
 
+void Mailbox::startAnew(wire::Pace pace, Frame first, std::optional<std::uint32_t> renumbered) {
+    const std::lock_guard lock(mutex_);
+    pace_ = pace;
+    next_ = first;
+    states_.clear();
+    finished_.clear();
+    release_.reset();
+    nextLook_.reset();
+    renumbered_ = renumbered;
+    isForgotten_ = true;
+    changed_.notify_all();
+}
+
 void Mailbox::put(ArrivedState arrived) {
     const std::lock_guard lock(mutex_);
     const auto isSame = [&](const ArrivedState& s) { return s.state.frame == arrived.state.frame; };
@@ -98,6 +111,8 @@ void Mailbox::expectJoin() {
     release_.reset();
     mind_.reset();
     nextLook_.reset();
+    renumbered_.reset();
+    isForgotten_ = false;
 }
 
 void Mailbox::await(std::unique_lock<std::mutex>& lock, const std::function<bool()>& isDone) {
@@ -127,6 +142,8 @@ std::optional<ArrivedState> Mailbox::takeNext() {
     ArrivedState taken = std::move(*chosen);
     states_.erase(chosen);
     next_ = {taken.state.frame.value + 1};
+    taken.renumbered = std::exchange(renumbered_, {});
+    isForgotten_ = false;
     return taken;
 }
 
@@ -139,6 +156,7 @@ std::optional<ArrivedState> Mailbox::takeState() {
 
 void Mailbox::finish(const FinishedFrame& finished) {
     const std::lock_guard lock(mutex_);
+    if (isForgotten_) return;
     if (finished_.size() == kStates) finished_.pop_front();
     finished_.push_back(finished);
 }
@@ -146,7 +164,8 @@ void Mailbox::finish(const FinishedFrame& finished) {
 std::optional<ReleaseOrder> Mailbox::awaitRelease(Frame frame) {
     std::unique_lock lock(mutex_);
     const auto isReleased = [&] { return release_ && release_->frame >= frame; };
-    await(lock, [&] { return isReleased() || interruption_; });
+    await(lock, [&] { return isReleased() || isForgotten_ || interruption_; });
+    if (isForgotten_ && !interruption_) return ReleaseOrder{frame, {}};
     return isReleased() ? release_ : std::nullopt;  // the last frame is shown before the end
 }
 

@@ -26,6 +26,9 @@ namespace aquarama::session {
 struct ArrivedState {
     wire::StateFrame state;
     net::Moment arrival{};
+    bool isReckoned = false;  // by the node itself
+    // The first of another run of the master: the number that the look has from now on.
+    std::optional<std::uint32_t> renumbered = {};
 };
 
 // The master releases a frame, for all nodes at the same instant.
@@ -69,6 +72,9 @@ class Mailbox {
     void admit(Admitted admitted);
     void refuse(const std::string& reason);
     void start(wire::Pace pace, Frame first);  // frames are taken from this one on
+    // The same, while frames are shown that are numbered otherwise. Those of before are forgotten,
+    // and whoever waits for the release of one is let go. `renumbered`: see ArrivedState.
+    void startAnew(wire::Pace pace, Frame first, std::optional<std::uint32_t> renumbered);
     void put(ArrivedState arrived);
     void release(const ReleaseOrder& order);
     void tellMind(ExplainedMind explanation);
@@ -109,6 +115,8 @@ class Mailbox {
     std::optional<wire::Pace> pace_;  // set once frames are expected
     Frame next_;
     std::deque<ArrivedState> states_;
+    std::optional<std::uint32_t> renumbered_;  // told with the next state
+    bool isForgotten_ = false;                 // the frame that the render thread has taken
     std::deque<FinishedFrame> finished_;
     std::optional<ReleaseOrder> release_;
     std::optional<ExplainedMind> mind_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_node/session/master_link.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@ constexpr net::Duration kMasterSilence = seconds(2);  // after which the master 
 constexpr net::Duration kShortSilence = milliseconds(600);  // and where there is a standby
 constexpr net::Duration kFarthest = milliseconds(250);      // a later release means a wrong clock
 constexpr net::Duration kReport = seconds(5);
+constexpr net::Duration kReckoningTurn = milliseconds(4);  // often enough for each frame
 constexpr net::Duration kSkins = seconds(5);        // so long a node waits for fish and drawings
 constexpr net::Duration kLongestTurn = seconds(2);  // of a net thread that is at work
 
@@ -31,14 +33,21 @@ std::vector<Digest> blobsIn(const v1::Look& look) {
     return digests;
 }
 
-// Where the master may be, of a rig with a standby; empty of another one.
-std::vector<std::string> mastersIn(const v1::Welcome& welcome) {
+// What the net thread needs of a rig: where the master may be, where it has a standby, and how
+// often the wall shows a frame.
+struct RigFacts {
+    std::vector<std::string> masters;
+    double refreshHertz = 60;
+};
+RigFacts factsOf(const v1::Welcome& welcome) {
+    RigFacts facts;
     try {
         const config::Rig rig = config::parseRig(welcome.rig_text(), "the master's rig");
-        if (rig.standby) return {rig.controlAddress, rig.standby->controlAddress};
+        facts.refreshHertz = static_cast<double>(rig.timing.refreshHertz);
+        if (rig.standby) facts.masters = {rig.controlAddress, rig.standby->controlAddress};
     } catch (const Error&) {  // the render thread says so
     }
-    return {};
+    return facts;
 }
 
 v1::LogSeverity wireSeverity(Severity severity) {
@@ -69,7 +78,7 @@ void MasterLink::post(const Request& request) {
 }
 
 void MasterLink::log(Severity severity, const std::string& line) {
-    requests_.tryPut(Logged{severity, line});
+    requests_.tryPut(LoggedLine{severity, line});
 }
 
 void MasterLink::stop() {
@@ -80,11 +89,11 @@ void MasterLink::stop() {
 }
 
 void MasterLink::run() {
-    isInRealTime_ = net::runInRealTime();
+    own_.isInRealTime = net::runInRealTime();
     try {
         while (!isStopped_) {
             turn();
-            connection_.wait(Pings::kInterval / 2);
+            connection_.wait(reckoning_.isOn() ? kReckoningTurn : Pings::kInterval / 2);
         }
     } catch (const Error& error) {  // no new connection could be made
         mailbox_.refuse(error.what());
@@ -101,7 +110,8 @@ void MasterLink::turn() {
     while (const auto request = requests_.tryTake())
         std::visit([&](const auto& what) { handle(what); }, *request);
     while (const auto finished = mailbox_.takeFinished()) {
-        if (phase_ != Phase::Member) continue;
+        if (const auto order = reckoning_.release(finished->frame)) mailbox_.release(*order);
+        if (phase_ != Phase::Member || reckoning_.isOn()) continue;
         frames_.finish(*finished);
         if (auto ready = frames_.due(pings_, net::monotonicNow(), school_.mismatches()))
             connection_.say(*std::move(ready));
@@ -113,32 +123,44 @@ void MasterLink::turn() {
 
 // --- requests of the render thread
 
-void MasterLink::handle(const Join&) {
+void MasterLink::handle(const JoinRequest&) {
+    reckoning_.forget();
+    convergence_.end();
+    built_.clear();
+    sayHello();
+}
+
+void MasterLink::sayHello() {
     connection_.renew();
     phase_ = Phase::Greeting;
     moments_.statesSince.reset();
+    joined_.reset();
+    renumbered_.reset();
     fetch_.stop();
     skins_.restart();
     school_.forget();
     frames_.forget();
 }
 
-void MasterLink::handle(const Built& built) {
-    built_ = built;
+void MasterLink::handle(const PreparedLook& built) {
+    constexpr std::size_t kMostLooks = 2;  // that is shown, and the next
+    if (built_.size() == kMostLooks) built_.erase(built_.begin());
+    built_.push_back(built);
+    if (welcome_.look().number() == built.look) built_.back().show = showOf(welcome_);
     if (built.motion) school_.use(built.look, built.motion);
     if (phase_ == Phase::Building) phase_ = Phase::Listening;
     if (phase_ == Phase::Member) sayPrepared();
 }
 
 void MasterLink::handle(const NodeFacts& facts) {
-    facts_ = facts;
+    own_.facts = facts;
     moments_.report = {};
 }
 
-void MasterLink::handle(const Logged& line) {
+void MasterLink::handle(const LoggedLine& line) {
     constexpr std::size_t kMostUnsaid = 100;
-    if (unsaid_.size() == kMostUnsaid) unsaid_.pop_front();
-    v1::LogLine& last = unsaid_.emplace_back();
+    if (own_.unsaid.size() == kMostUnsaid) own_.unsaid.pop_front();
+    v1::LogLine& last = own_.unsaid.emplace_back();
     last.set_severity(wireSeverity(line.severity));
     last.set_frame(frames_.lastFinished().value);
     last.set_text(printable(line.text));
@@ -153,8 +175,8 @@ void MasterLink::handle(const v1::Envelope& message) {
 void MasterLink::readControl(const net::ByteVector& bytes) {
     const auto message = wire::decode(bytes);
     if (!message || !connection_.isOfNewest(*message)) return;
-    moments_.heard = net::monotonicNow();
     take(*message);
+    if (message->session() == connection_.session()) moments_.heard = net::monotonicNow();
 }
 
 void MasterLink::take(const v1::Envelope& message) {
@@ -166,7 +188,7 @@ void MasterLink::take(const v1::Envelope& message) {
             if (phase_ == Phase::Greeting) mailbox_.refuse(message.refusal().reason());
             return;
         case v1::Envelope::kDismissed:  // may be of another run, which does not know this node
-            return takeDismissal(message.dismissed().reason());
+            return takeDismissal(message.dismissed());
         default:
             if (connection_.session() != 0 && message.session() == connection_.session())
                 takeOfRun(message);
@@ -186,8 +208,7 @@ void MasterLink::takeOfRun(const v1::Envelope& message) {
         case v1::Envelope::kKeyframe:
             return school_.take(message.keyframe());
         case v1::Envelope::kJoined:
-            return mailbox_.start(static_cast<wire::Pace>(welcome_.pace()),
-                                  {message.joined().first_frame()});
+            return takeJoined(message.joined());
         case v1::Envelope::kPrepare:
             return prepare(message.prepare().look());
         case v1::Envelope::kPresent:
@@ -232,7 +253,12 @@ void MasterLink::readState(const net::ByteVector& bytes) {
 }
 
 void MasterLink::offerFrames() {
-    while (auto frame = school_.next()) mailbox_.put(*std::move(frame));
+    while (auto frame = school_.next()) {
+        if (reckoning_.isOn() && !mayEndReckoning(*frame)) continue;
+        if (reckoning_.isOn()) endReckoning(*frame);
+        reckoning_.saw(frame->state);
+        put(*std::move(frame));
+    }
     if (figures_.mismatches.exchange(school_.mismatches()) != 0 || school_.mismatches() == 0)
         return;
     logError(
@@ -241,12 +267,47 @@ void MasterLink::offerFrames() {
         connection_.name());
 }
 
+void MasterLink::put(ArrivedState frame) {
+    convergence_.apply(frame.state);
+    mailbox_.put(std::move(frame));
+}
+
+// --- while the master is silent
+
+void MasterLink::reckon(DeadReckoning::Cause cause) {
+    const bool isShown = phase_ == Phase::Member && welcome_.pace() == v1::PACE_LIVE;
+    const auto shown = std::ranges::find(built_, reckoning_.look(), &PreparedLook::look);
+    if (!isShown || shown == built_.end() || reckoning_.isOn()) return;
+    reckoning_.begin(cause, school_, shown->motion);
+    if (!reckoning_.isOn()) return;
+    mailbox_.release(reckoning_.overtaken(net::monotonicNow()));
+}
+
+bool MasterLink::mayEndReckoning(const ArrivedState& frame) const {
+    return phase_ == Phase::Member && joined_ && frame.state.frame >= *joined_ &&
+           !frame.state.after.empty();
+}
+
+// Its fish glide from where the picture would have had them in this frame.
+void MasterLink::endReckoning(const ArrivedState& first) {
+    ArrivedState reckoned = reckoning_.next();
+    convergence_.apply(reckoned.state);
+    if (reckoned.state.after.size() == first.state.after.size())
+        convergence_.begin(reckoned.state, first.state);
+    reckoning_.forget();
+    mailbox_.startAnew(static_cast<wire::Pace>(welcome_.pace()),
+                       first.state.frame,
+                       std::exchange(renumbered_, {}));
+}
+
 void MasterLink::takeWelcome(const v1::Envelope& message) {
     connection_.enter(message.session());
     phase_ = Phase::Fetching;
     welcome_ = message.welcome();
     calibration_ = wire::calibrationOf(welcome_.rig_text(), welcome_.look());
-    for (const std::string& address : mastersIn(welcome_)) connection_.alsoAt(address);
+    const RigFacts rig = factsOf(welcome_);
+    for (const std::string& address : rig.masters) connection_.alsoAt(address);
+    if (!reckoning_.isOn()) reckoning_.setRefresh(rig.refreshHertz);
     pings_ = {};
     try {
         connection_.subscribeState(welcome_.state_address());
@@ -262,11 +323,11 @@ void MasterLink::takePong(const v1::Pong& pong) {
     figures_.clockOffsetSeconds = net::secondsIn(pings_.offset(now).value_or(net::Duration{}));
 }
 
-void MasterLink::takeDismissal(const std::string& reason) {
-    if (phase_ == Phase::Greeting)
-        connection_.notYet(reason);
-    else if (phase_ != Phase::Outside)
-        lose(reason);
+void MasterLink::takeDismissal(const v1::Dismissed& dismissed) {
+    if (phase_ == Phase::Greeting) return connection_.notYet(dismissed.reason());
+    if (phase_ == Phase::Outside) return;
+    if (dismissed.hands_over()) reckon(DeadReckoning::Cause::HandOver);
+    lose(dismissed.reason());
 }
 
 void MasterLink::takeRelease(const v1::Present& present) {
@@ -277,6 +338,8 @@ void MasterLink::takeRelease(const v1::Present& present) {
     if (present.at_ns() != 0 && ahead) at = net::Moment{net::Duration{present.at_ns()}} - *ahead;
     if (at > now + kFarthest) at = now;
     frames_.release(frame);
+    if (reckoning_.isOn()) return;
+    reckoning_.released(frame, at);
     mailbox_.release({frame, at});
 }
 
@@ -291,7 +354,7 @@ void MasterLink::takeFarewell() {
 // The master repeats it until it has heard that the look is built.
 void MasterLink::prepare(const v1::Look& look) {
     if (phase_ != Phase::Member) return;
-    if (look.number() == built_.look) return sayPrepared();
+    if (look.number() == built_.back().look) return sayPrepared();
     if (look.number() == welcome_.look().number()) return;
     *welcome_.mutable_look() = look;
     calibration_ = wire::calibrationOf(welcome_.rig_text(), look);
@@ -302,13 +365,29 @@ void MasterLink::admit() {
     const Admitted admitted{welcome_, fetch_.blobs()};
     if (phase_ != Phase::Fetching) return mailbox_.offerNextLook(admitted);
     phase_ = Phase::Building;
-    mailbox_.admit(admitted);
+    if (!reckoning_.isOn()) return mailbox_.admit(admitted);
+    const auto shown = std::ranges::find(built_, reckoning_.look(), &PreparedLook::look);
+    if (shown->show != showOf(welcome_)) return lose("it shows something else");
+    PreparedLook same = *shown;
+    same.look = welcome_.look().number();
+    renumbered_ = same.look;
+    built_.clear();
+    handle(same);
 }
 
-// A render thread that is still in join() is not told: it waits on while the node says hello again.
+// Until the first frame is there, those that the node has made are shown.
+void MasterLink::takeJoined(const v1::Joined& joined) {
+    joined_ = Frame{joined.first_frame()};
+    if (!reckoning_.isOn()) mailbox_.start(static_cast<wire::Pace>(welcome_.pace()), *joined_);
+}
+
+// While a live show is shown it joins beside the frames. A render thread that is still in join() is
+// not told: it waits on while the node says hello again.
 void MasterLink::lose(const std::string& why) {
     logWarning("{}: {}; joining again", connection_.name(), why);
-    if (phase_ == Phase::Fetching) return handle(Join{});
+    reckon(DeadReckoning::Cause::Silence);
+    if (reckoning_.isOn() && phase_ != Phase::Building) return sayHello();
+    if (phase_ == Phase::Fetching) return handle(JoinRequest{});
     phase_ = Phase::Outside;
     connection_.leave();  // messages that are still on their way mean nothing any more
     mailbox_.interrupt(Release::Rejoin);
@@ -318,6 +397,8 @@ void MasterLink::lose(const std::string& why) {
 
 void MasterLink::doWhatIsDue(net::Moment now) {
     if (phase_ == Phase::Outside) return;
+    if (reckoning_.isSilent(moments_.heard, now)) reckon(DeadReckoning::Cause::Silence);
+    if (auto frame = reckoning_.due(now)) put(*std::move(frame));
     if (phase_ == Phase::Greeting) return connection_.greet(now);
     const net::Duration longest = connection_.hasSeveral() ? kShortSilence : kMasterSilence;
     if (now - moments_.heard > longest) return lose("the master has fallen silent");
@@ -346,19 +427,20 @@ bool MasterLink::mayBePrepared(net::Moment now) const {
 
 void MasterLink::sayPrepared() {
     v1::Envelope message;
-    message.mutable_prepared()->set_quality(static_cast<std::uint32_t>(built_.quality));
-    message.mutable_prepared()->set_look(built_.look);
+    const PreparedLook& newest = built_.back();
+    message.mutable_prepared()->set_quality(static_cast<std::uint32_t>(newest.quality));
+    message.mutable_prepared()->set_look(newest.look);
     connection_.say(std::move(message));
 }
 
 void MasterLink::sayReport(net::Moment now) {
     v1::Envelope message;
     v1::NodeReport& report = *message.mutable_node_report();
-    reportMachine(facts_, report);
+    reportMachine(own_.facts, report);
     pings_.report(report, now);
     frames_.report(report);
     report.set_free_disk_bytes(fetch_.freeBytes());
-    report.set_real_time(isInRealTime_);
+    report.set_real_time(own_.isInRealTime);
     figures_.gpuCelsius = report.gpu_celsius();
     connection_.say(std::move(message));
     moments_.report = now;
@@ -367,10 +449,10 @@ void MasterLink::sayReport(net::Moment now) {
 // A few lines a turn, so that a flood of lines delays nothing else.
 void MasterLink::sayLog() {
     constexpr int kLinesATurn = 4;
-    for (int line = 0; line < kLinesATurn && !unsaid_.empty(); ++line) {
+    for (int line = 0; line < kLinesATurn && !own_.unsaid.empty(); ++line) {
         v1::Envelope message;
-        *message.mutable_log_line() = std::move(unsaid_.front());
-        unsaid_.pop_front();
+        *message.mutable_log_line() = std::move(own_.unsaid.front());
+        own_.unsaid.pop_front();
         connection_.say(std::move(message));
     }
 }

@@ -16,6 +16,8 @@
 #include "common/wire/messages.h"
 #include "render_node/session/blob_fetch.h"
 #include "render_node/session/connection.h"
+#include "render_node/session/convergence.h"
+#include "render_node/session/dead_reckoning.h"
 #include "render_node/session/frame_reports.h"
 #include "render_node/session/mailbox.h"
 #include "render_node/session/pings.h"
@@ -40,6 +42,28 @@ struct LinkMoments {
     std::optional<net::Moment> statesSince;
 };
 
+// What a node tells the master of itself beside its frames.
+struct OwnFacts {
+    NodeFacts facts;
+    bool isInRealTime = false;            // the net thread
+    std::deque<v1::LogLine> unsaid = {};  // lines of the log
+};
+
+// Requests of the render thread: to join, and a look that is built, with the tier that the node
+// keeps up with.
+struct JoinRequest {};
+struct PreparedLook {
+    std::uint32_t look = 0;
+    config::QualityTier quality = config::QualityTier::Low;
+    std::shared_ptr<school::SchoolMotion> motion = {};
+    Digest show = {};  // showOf() its welcome: of the net thread
+};
+// A line of this process's log, for that of the show.
+struct LoggedLine {
+    Severity severity;
+    std::string text;
+};
+
 // It says hello until a master welcomes the node, fetches the blobs that are missing, sends pings
 // and reports, and joins again when the master is lost or restarted. Functions are of the net
 // thread, unless they say otherwise.
@@ -54,17 +78,8 @@ class MasterLink {
 
     // Requests of the render thread, in the order in which they are posted. An envelope is sent to
     // the master; it is dropped while the node is not welcomed.
-    struct Join {};
-    struct Built {  // a look; the node keeps up with this tier
-        std::uint32_t look = 0;
-        config::QualityTier quality = config::QualityTier::Low;
-        std::shared_ptr<school::SchoolMotion> motion = {};
-    };
-    struct Logged {  // a line of this process's log, for that of the show
-        Severity severity;
-        std::string text;
-    };
-    using Request = std::variant<Join, Built, NodeFacts, Logged, v1::Envelope>;
+
+    using Request = std::variant<JoinRequest, PreparedLook, NodeFacts, LoggedLine, v1::Envelope>;
     // From any thread; waits while too many requests are posted.
     void post(const Request& request);
     // From any thread. The line is lost where too many wait.
@@ -89,10 +104,10 @@ class MasterLink {
 
     // Handles all requests, frames and messages that have come, then the tasks that are due.
     void turn();
-    void handle(const Join& join);
-    void handle(const Built& built);
+    void handle(const JoinRequest& join);
+    void handle(const PreparedLook& built);
     void handle(const NodeFacts& facts);
-    void handle(const Logged& line);
+    void handle(const LoggedLine& line);
     void handle(const v1::Envelope& message);
 
     // Packets that cannot be decoded are ignored.
@@ -103,7 +118,7 @@ class MasterLink {
     void carryOut(const v1::Order& order);
     void takeWelcome(const v1::Envelope& message);
     void takePong(const v1::Pong& pong);
-    void takeDismissal(const std::string& reason);
+    void takeDismissal(const v1::Dismissed& dismissed);
     void takeRelease(const v1::Present& present);
     void takeFarewell();
     // The next look: its blobs are fetched while frames are drawn.
@@ -111,8 +126,16 @@ class MasterLink {
 
     // All blobs are there.
     void admit();
+    void takeJoined(const v1::Joined& joined);
     // Puts frames whose fish are known into the mailbox.
     void offerFrames();
+    void put(ArrivedState frame);
+    // The master is silent: the node makes the frames itself, while it joins again.
+    void reckon(DeadReckoning::Cause cause);
+    // Whether a frame of the master takes the place of one that the node has made.
+    [[nodiscard]] bool mayEndReckoning(const ArrivedState& frame) const;
+    void endReckoning(const ArrivedState& first);
+    void sayHello();
     // A node that has just come draws as its neighbours do: it waits for the fish and the skins
     // that they have.
     [[nodiscard]] bool mayBePrepared(net::Moment now) const;
@@ -136,12 +159,15 @@ class MasterLink {
     BlobFetch fetch_;
     SkinFetch skins_;
     SchoolFollower school_;
-    Built built_;
+    DeadReckoning reckoning_;
+    Convergence convergence_;
+    std::vector<PreparedLook> built_;  // the newest two looks; the newest last
+    std::optional<Frame> joined_;      // the first frame for this node as a member
+    // Once another run has welcomed the node beside the frames: its number of what is shown.
+    std::optional<std::uint32_t> renumbered_;
     Pings pings_;
     FrameReports frames_;
-    NodeFacts facts_;
-    bool isInRealTime_ = false;       // the net thread
-    std::deque<v1::LogLine> unsaid_;  // lines of the log for the master
+    OwnFacts own_;
     LinkMoments moments_;
 };
 

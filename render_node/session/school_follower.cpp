@@ -15,8 +15,6 @@ namespace {
 constexpr std::size_t kMostWaiting = 8;
 // Steps are kept for a keyframe that is older than the newest frame; about four seconds.
 constexpr std::size_t kMostSteps = 256;
-// The master sends its last two frames again where one was lost; each shows up to two ticks.
-constexpr std::size_t kLived = 4;
 constexpr net::Duration kBetweenRequests = std::chrono::milliseconds(250);
 
 }  // namespace
@@ -63,15 +61,20 @@ void SchoolFollower::keep(const wire::SchoolPart& part) {
     while (steps_.size() > kMostSteps) steps_.erase(steps_.begin());
 }
 
-bool SchoolFollower::load(const wire::SchoolPart& part) {
-    if (motion_ == nullptr) return false;
+void SchoolFollower::load(const wire::SchoolPart& part) {
+    if (motion_ == nullptr) return;
     auto keyframe = school::decodeKeyframe(part.keyframe, motion_->fish());
-    if (!keyframe) return false;
+    if (!keyframe) {
+        if (!std::exchange(isRefused_, true))
+            logError(
+                "the master's keyframe is not of the fish of this look; use one version of master "
+                "and node");
+        return;
+    }
     follows_ = std::move(keyframe);
-    lived_.clear();
-    remember();
-    isMissing_ = isWrong_ = false;
-    return true;
+    recent_.clear();
+    recent_.remember(follows_->school);
+    isMissing_ = isWrong_ = isRefused_ = false;
 }
 
 void SchoolFollower::take(const v1::Keyframe& keyframe) {
@@ -106,9 +109,8 @@ void SchoolFollower::turn(net::Moment now) {
     say_(std::move(message));
 }
 
-// A frame of a look that is not built yet comes without fish: the render thread draws none of it,
-// and builds on. A frame of a tick that has passed cannot be shown any more; nor can one that lies
-// between two ticks of which the first is not known.
+// A frame of a look that has no motion comes without fish: it is not built yet, or shows patterns
+// alone. A frame whose fish are not known any more is left out.
 std::optional<ArrivedState> SchoolFollower::next() {
     while ((follows_ || motion_ == nullptr) && !waiting_.empty()) {
         Waiting& first = waiting_.front();
@@ -123,9 +125,9 @@ std::optional<ArrivedState> SchoolFollower::next() {
         }
         ArrivedState ready{std::move(first.frame), first.arrival};
         waiting_.pop_front();
-        const auto* const after = fishAt(ready.state.tick);
+        const auto* const after = recent_.at(ready.state.tick);
         const bool isBetween = ready.state.fraction < 1.0F;
-        const auto* const before = isBetween ? fishAt({ready.state.tick.value - 1}) : after;
+        const auto* const before = isBetween ? recent_.at({ready.state.tick.value - 1}) : after;
         if (after == nullptr || before == nullptr) continue;
         ready.state.after = *after;
         if (isBetween) ready.state.before = *before;
@@ -154,31 +156,14 @@ bool SchoolFollower::advance(const wire::SchoolStep& step) {
     if (!placed) return false;
     motion_->advance(school);
     for (const school::PlacedFish& one : *placed) school.set(one.fish, one.record);
-    remember();
+    recent_.remember(school);
     if (step.hash) check(*step.hash);
     return true;
 }
 
-// The buffers of the oldest are used again.
-void SchoolFollower::remember() {
-    Lived newest;
-    if (lived_.size() == kLived) {
-        newest = std::move(lived_.front());
-        lived_.pop_front();
-    }
-    newest.tick = follows_->school.tick;
-    follows_->school.records(newest.fish);
-    lived_.push_back(std::move(newest));
-}
-
-const std::vector<motion::FishRecord>* SchoolFollower::fishAt(Tick tick) const {
-    const auto found = std::ranges::find(lived_, tick, &Lived::tick);
-    return found == lived_.end() ? nullptr : &found->fish;
-}
-
 // It goes on with what it has until the keyframe has come.
 void SchoolFollower::check(std::uint64_t hash) {
-    if (school::hashOf(lived_.back().fish, follows_->school.commands) == hash) return;
+    if (school::hashOf(recent_.newest(), follows_->school.commands) == hash) return;
     ++mismatches_;
     isWrong_ = true;
     lose();

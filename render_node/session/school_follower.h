@@ -18,6 +18,7 @@
 #include "common/school/school_motion.h"
 #include "common/wire/messages.h"
 #include "render_node/session/mailbox.h"
+#include "render_node/session/recent_fish.h"
 #include "render_node/session/session.h"
 
 namespace aquarama::session {
@@ -41,10 +42,16 @@ class SchoolFollower {
     // Asks for what is missing, now and then.
     void turn(net::Moment now);
 
-    // The next frame whose fish are known, or whose look is not built.
+    // The next frame whose fish are known, or whose look has no motion: that one comes without
+    // fish.
     [[nodiscard]] std::optional<ArrivedState> next();
     // Whether frames of a look arrive that is built, and it cannot follow them yet.
     [[nodiscard]] bool isBehind() const { return isMissing_ && motion_ != nullptr; }
+    // The newest fish, and those of the ticks before; null where it follows none.
+    [[nodiscard]] const school::SchoolState* newest() const {
+        return follows_ ? &follows_->school : nullptr;
+    }
+    [[nodiscard]] const RecentFish& recent() const { return recent_; }
     // Steps after which its fish were others than the master's; each was healed by a keyframe.
     [[nodiscard]] std::uint64_t mismatches() const { return mismatches_; }
 
@@ -53,19 +60,11 @@ class SchoolFollower {
         wire::StateFrame frame;
         net::Moment arrival{};
     };
-    // The fish at a tick that has passed: a frame that was lost may come again.
-    struct Lived {
-        Tick tick;
-        std::vector<motion::FishRecord> fish;
-    };
     // Another world.
     void enter(std::uint64_t stream);
-    // The fish at a tick; null: it is none of the last.
-    [[nodiscard]] const std::vector<motion::FishRecord>* fishAt(Tick tick) const;
-    void remember();
     void keep(const wire::SchoolPart& part);
-    // Another world from this keyframe on. False: it is none for the fish of the look.
-    bool load(const wire::SchoolPart& part);
+    // It follows from this keyframe on, where it is one of the fish of the look.
+    void load(const wire::SchoolPart& part);
     // Brings the fish to this tick. False: a step is missing, or is none.
     bool advanceTo(Tick tick);
     bool advance(const wire::SchoolStep& step);
@@ -78,11 +77,12 @@ class SchoolFollower {
     std::shared_ptr<school::SchoolMotion> motion_;  // of the world of the stream
     std::uint64_t stream_ = 0;
     std::optional<school::Keyframe> follows_;  // the newest tick; nothing: unknown
-    std::deque<Lived> lived_;                  // the last ticks, the newest last
+    RecentFish recent_;                        // a frame that was lost may come again
     std::map<Tick, wire::SchoolStep> steps_;   // those to come, and some before
     std::deque<Waiting> waiting_;              // for their fish, in order
     bool isMissing_ = false;                   // a keyframe is needed
     bool isWrong_ = false;                     // as its fish are others than the master's
+    bool isRefused_ = false;                   // the last keyframe, which is said once
     std::optional<net::BlobAssembly> assembly_;
     net::Moment lastAsked_{};
     std::uint64_t mismatches_ = 0;

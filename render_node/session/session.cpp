@@ -2,10 +2,14 @@
 #include "render_node/session/session.h"
 
 #include <algorithm>
+#include <cstring>
+#include <functional>
 #include <future>
+#include <span>
 #include <thread>
 #include <utility>
 
+#include "common/base/derived_cache.h"
 #include "common/base/log.h"
 #include "common/config/species.h"
 #include "common/motion/repertoire.h"
@@ -40,15 +44,6 @@ std::vector<motion::FishTraits> schoolOf(const v1::Look& look) {
         school.push_back(
             {look.fish_ids(i), static_cast<std::uint16_t>(look.length_millimetres(i))});
     return school;
-}
-
-// A digest of what stays the same when a show continues after an interruption.
-Digest showOf(v1::Welcome welcome) {
-    welcome.clear_state_address();
-    welcome.clear_pace();
-    welcome.mutable_look()->clear_number();
-    welcome.mutable_look()->clear_quality();
-    return digestOf(welcome.SerializeAsString());
 }
 
 // The rig, with the files that it names, which were fetched.
@@ -118,8 +113,9 @@ class NodeFigures {
         metrics_.gauge("aquarama_clock_offset_seconds", "The master's clock minus this machine's");
     net::Record bytes_ =
         metrics_.counter("aquarama_received_bytes_total", "Bytes of states that have arrived");
-    net::Record mismatches_ = metrics_.counter("aquarama_hash_mismatches_total",
-                                               "States that it decoded to another hash");
+    net::Record mismatches_ =
+        metrics_.counter("aquarama_hash_mismatches_total",
+                         "Steps after which its fish were others than the master's");
     net::Record celsius_ = metrics_.gauge("aquarama_gpu_celsius",
                                           "Temperature of the graphics card; 0 where none is told");
     net::Moment begun_{}, lastPresent_{};
@@ -151,7 +147,7 @@ class LinkSession final : public Session {
     std::optional<Admission> join() override {
         released_.reset();
         mailbox_.expectJoin();
-        link_.post(MasterLink::Join{});
+        link_.post(JoinRequest{});
         JoinOutcome outcome = mailbox_.awaitJoin();
         if (const auto* refused = std::get_if<Refused>(&outcome)) {
             throw Error("the master refuses node \"" + name_ + "\": " + refused->reason);
@@ -167,7 +163,7 @@ class LinkSession final : public Session {
     void prepared(std::uint32_t look,
                   config::QualityTier quality,
                   std::shared_ptr<school::SchoolMotion> motion) override {
-        link_.post(MasterLink::Built{look, quality, std::move(motion)});
+        link_.post(PreparedLook{look, quality, std::move(motion)});
     }
     std::optional<Admission> nextLook() override {
         const auto offered = mailbox_.takeNextLook();
@@ -179,13 +175,17 @@ class LinkSession final : public Session {
         net::runInRealTime(false);
         auto arrived = mailbox_.takeState();
         if (!arrived) return std::nullopt;
-        stateArrival_ = arrived->arrival;
+        const bool isAnew = taken_.isReckoned && !arrived->isReckoned;
+        if (isAnew) released_.reset();  // of a frame that the master does not know
+        taken_ = {{}, arrived->arrival, arrived->isReckoned, arrived->renumbered};
         if (figures_) figures_->begin();
         return std::move(arrived->state);
     }
 
     Release interruption() const override { return mailbox_.interruption(); }
-    net::Moment stateArrival() const override { return stateArrival_; }
+    bool isReckoned() const override { return taken_.isReckoned; }
+    std::optional<std::uint32_t> renumbered() const override { return taken_.renumbered; }
+    net::Moment stateArrival() const override { return taken_.arrival; }
 
     Release readyThenWait(Frame frame) override {
         if (figures_) figures_->finish();
@@ -201,7 +201,7 @@ class LinkSession final : public Session {
         mailbox_.finish({frame,
                          std::exchange(released_, {}),
                          blanks_.blanks(),
-                         net::monotonicNow() - stateArrival_});
+                         net::monotonicNow() - taken_.arrival});
         link_.wake();
         const auto order = mailbox_.awaitRelease(frame);
         if (!order) return mailbox_.interruption();
@@ -270,19 +270,46 @@ class LinkSession final : public Session {
     std::optional<ReleaseReport> released_;
     net::BlankMeter blanks_;
     bool skipped_ = false;
-    net::Moment stateArrival_{};
+    ArrivedState taken_;     // without its state
     std::thread netThread_;  // last: it uses all of the above
 };
 
 }  // namespace
 
+namespace {
+
+// The plans of warps of a repertoire, from the disk where a node has made them before.
+motion::WarpPlans keptPlans(std::span<const std::byte> repertoire,
+                            const std::function<motion::WarpPlans()>& make) {
+    const auto bytes = derivedCache().find(DerivedKey("warps").add(repertoire), [&] {
+        const auto plans = std::make_unique<const motion::WarpPlans>(make());
+        const auto raw = std::as_bytes(std::span{plans.get(), 1});
+        return DerivedCache::Bytes(raw.begin(), raw.end());
+    });
+    motion::WarpPlans plans{};
+    if (bytes.size() != sizeof plans) return make();
+    std::memcpy(&plans, bytes.data(), sizeof plans);
+    return plans;
+}
+
+}  // namespace
+
+Digest showOf(v1::Welcome welcome) {
+    welcome.clear_state_address();
+    welcome.clear_pace();
+    welcome.mutable_look()->clear_number();
+    welcome.mutable_look()->clear_quality();
+    return digestOf(welcome.SerializeAsString());
+}
+
 std::shared_ptr<school::SchoolMotion> motionOf(const Admission& admission) {
-    // Each takes a tenth of a second.
+    // The first time on a machine each takes a tenth of a second.
     std::vector<std::future<std::shared_ptr<const motion::MotorTables>>> tables;
     for (const wire::SpeciesAssets& species : admission.cast)
         tables.push_back(std::async(std::launch::async, [&bytes = species.repertoire] {
             return motion::makeMotorTables(
-                motion::decodeRepertoire(bytes, "the master's repertoire"));
+                motion::decodeRepertoire(bytes, "the master's repertoire"),
+                [&](const auto& make) { return keptPlans(bytes, make); });
         }));
     std::vector<school::Swimmers> swimmers;
     std::size_t next = 0;

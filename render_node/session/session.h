@@ -47,6 +47,8 @@ struct Admission {
     std::vector<motion::FishTraits> school;
     std::vector<wire::SpeciesAssets> cast;  // of all fish of the school, in its order
 };
+// A digest of what stays the same when a show goes on after an interruption.
+[[nodiscard]] Digest showOf(v1::Welcome welcome);
 
 // How the fish of a look move. Takes a second for a large cast. Throws Error where the master's
 // files cannot be read.
@@ -77,7 +79,7 @@ class Session {
     virtual std::optional<Admission> join() = 0;
     // This look is built, and this is the finest tier that the node keeps up with. After join().
     // From now on the master waits for the node. `motion`: motionOf() the look; the session alone
-    // uses it from now on.
+    // uses it from now on. Without it frames come without fish.
     virtual void prepared(std::uint32_t look,
                           config::QualityTier quality,
                           std::shared_ptr<school::SchoolMotion> motion) = 0;
@@ -91,6 +93,11 @@ class Session {
     // The next frame to draw: in lockstep every one in order, live the newest. Empty: see
     // `interruption`.
     virtual std::optional<wire::StateFrame> nextFrame() = 0;
+    // Of the frame that nextFrame() gave: the node has made it itself, as the master is silent.
+    [[nodiscard]] virtual bool isReckoned() const = 0;
+    // The number that the look has from that frame on, where the node has joined another run of the
+    // master, which shows the same. A look that was offered before is not shown any more.
+    [[nodiscard]] virtual std::optional<std::uint32_t> renumbered() const = 0;
     // When the state of the frame that nextFrame() gave had arrived, on CLOCK_MONOTONIC.
     [[nodiscard]] virtual net::Moment stateArrival() const = 0;
     // Why nextFrame() was empty.

@@ -16,8 +16,10 @@ BuiltLook::BuiltLook(gl::Context& context, const std::string& channel, session::
       channel_{channelIndex(admission_.rig, channel)},
       wall_{std::make_shared<const wall::Wall>(admission_.rig)},
       workspace_{context.makeWorkspace()} {
-    // Beside the pictures.
-    auto motion = std::async(std::launch::async, [this] { return session::motionOf(admission_); });
+    // Beside the pictures. Patterns alone need no fish.
+    std::future<std::shared_ptr<school::SchoolMotion>> motion;
+    if (admission_.world)
+        motion = std::async(std::launch::async, [this] { return session::motionOf(admission_); });
     const glm::ivec2 size = admission_.rig.channels[channel_].sizePixels;
     workspace_->makeCurrent();
 #ifndef NDEBUG
@@ -31,7 +33,7 @@ BuiltLook::BuiltLook(gl::Context& context, const std::string& channel, session::
     // Some drivers compile shaders on first use.
     drawEmpty();
     gl::waitForGpu();
-    motion_ = motion.get();
+    if (motion.valid()) motion_ = motion.get();
 }
 
 BuiltLook::~BuiltLook() {

@@ -32,7 +32,7 @@ class BuiltLook {
 
     // What it was built from.
     [[nodiscard]] const session::Admission& admission() const { return admission_; }
-    // How its fish move: for the session, which alone uses it.
+    // How its fish move: for the session, which alone uses it; null where patterns alone are drawn.
     [[nodiscard]] const std::shared_ptr<school::SchoolMotion>& motion() const { return motion_; }
     // Gives the same look another number, after the master was started again.
     void renumber(std::uint32_t look) { admission_.look = look; }

@@ -125,11 +125,9 @@ void ChannelShow::writePanorama() {
 
 // When the same show goes on after an interruption, nothing is built again.
 void ChannelShow::build(session::Admission admission) {
-    const std::uint32_t look = admission.look;
+    if (stage_ && stage_->admission().show == admission.show) return renumber(admission.look);
     next_.reset();
-    isStale_ =
-        building_.valid();  // a look of another run of the master: its number is not valid now
-    if (stage_ && stage_->admission().show == admission.show) return stage_->renumber(look);
+    isStale_ = building_.valid();
     const std::size_t channel = channelIndex(admission.rig, options_.channel);
     if (stage_ && stage_->picture().sizePixels() != admission.rig.channels[channel].sizePixels)
         throw Error("channel \"" + options_.channel +
@@ -201,6 +199,7 @@ session::Release ChannelShow::play() {
     while (std::optional<wire::StateFrame> state = session_.nextFrame()) {
         if (presented) showWatchers(*std::exchange(presented, {}));
         FrameTimes times{.state = session_.stateArrival()};
+        followMaster();
         controls_.show(state->show);
         buildNext();
         if (!bringOn(state->show.look)) return session::Release::Rejoin;
@@ -221,7 +220,8 @@ session::Release ChannelShow::play() {
         if (release == session::Release::Skip) continue;
         if (seen) context_.swap();
         times.present = net::monotonicNow();
-        service_.alive(++framesShown_);
+        ++framesShown_;
+        service_.alive(isAlone_ ? 0 : framesShown_);  // keeps the status
         watchBlanks(state->frame);
         trace_.write(state->frame, times);
         if (film_ && isFilmed(state->frame)) film(state->frame);
@@ -230,6 +230,21 @@ session::Release ChannelShow::play() {
         if (!std::exchange(shown_, true)) logInfo("showing");
     }
     return session_.interruption();
+}
+
+void ChannelShow::followMaster() {
+    if (const auto look = session_.renumbered()) renumber(*look);
+    if (session_.isReckoned() == std::exchange(isAlone_, session_.isReckoned())) return;
+    if (!isAlone_) return logInfo("the master leads again");
+    logInfo("lost the master; the fish swim on");
+    service_.status("the master is gone; the fish swim on");
+}
+
+// A look that was being built is one of another run of the master: its number is not valid now.
+void ChannelShow::renumber(std::uint32_t look) {
+    next_.reset();
+    isStale_ = building_.valid();
+    stage_->renumber(look);
 }
 
 void ChannelShow::dress() {

@@ -61,6 +61,9 @@ class ChannelShow {
     void bringTo(config::QualityTier quality);
     // Draws and presents frames until the master is lost (Rejoin) or the show ends (Quit).
     [[nodiscard]] session::Release play();
+    // Whether the master leads, and by which number its frames name what is shown.
+    void followMaster();
+    void renumber(std::uint32_t look);
     // What fish wear: one new drawing a frame, so that none is late; all where the picture is new.
     void dress();
     // Draws and projects a frame, for quad buffers once for each eye, and waits for the GPU. The
@@ -119,6 +122,7 @@ class ChannelShow {
     bool isUndressed_ = true;
     // Whether a frame of this show has been presented, and how many since the node started.
     bool shown_ = false;
+    bool isAlone_ = false;  // the master is silent
     std::uint64_t framesShown_ = 0;
     // The last frame, where it was not drawn because it was neither shown nor filmed.
     std::optional<wire::StateFrame> undrawn_;

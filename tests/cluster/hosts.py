@@ -27,7 +27,7 @@ BACK, GAP_MS = 6, 3 * (250 + 17)
 
 
 def sh(*command):
-    subprocess.run(command, check=True, capture_output=True, text=True)
+    subprocess.run([str(part) for part in command], check=True, capture_output=True, text=True)
 
 
 class Wall:

@@ -1,4 +1,4 @@
-"""Real processes: a master that is killed goes on with its world, and its journal plays again.
+"""Real processes: a master that is killed goes on with its world, its journal plays again, and the wall goes on alone.
 
 AQUARAMA_KILLS is how often it is killed; without it once. Prints how long each time no master answered.
 """
@@ -8,11 +8,12 @@ import os
 import random
 import re
 import signal
+import subprocess
 import time
 import unittest
 from pathlib import Path
 
-from show import ShowCase, aquarama, children_of, end, start, wait_until
+from show import BIN, ROOT, ShowCase, aquarama, children_of, control_address, end, start, trace, wait_until
 
 KILLS = int(os.environ.get("AQUARAMA_KILLS", "1"))
 
@@ -75,6 +76,33 @@ class Journal(ShowCase):
             checked = aquarama("replay", recording, "--check")
             self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
             self.assertIn("the replay is the same world", checked.stdout)
+
+    def shown(self):
+        """How many frames the node has shown."""
+        return len(trace(self.folder.name, "left"))
+
+    def test_the_fish_swim_on_while_no_master_is_there(self):
+        node_log = Path(self.folder.name) / "node.log"
+        master = start("master", "--quality", "low", self.rig, log=self.log)
+        with node_log.open("w") as output:
+            node = subprocess.Popen([BIN / "aquarama-node", "left", "--master", control_address(self.rig), "--headless",
+                                     "--trace", self.folder.name], stdout=output, stderr=subprocess.STDOUT, cwd=ROOT)
+        self.processes = [node, master]
+        wait_until(lambda: self.shown() > 20, 120, "frames of the reef")
+        master.kill()
+        master.wait()
+        wait_until(lambda: "the fish swim on" in node_log.read_text(), 10, "the node to go on alone")
+        time.sleep(3)  # it gives the master up meanwhile, and joins again
+        alone = self.shown()
+        wait_until(lambda: self.shown() > alone + 10, 60, "frames of its own")
+        self.processes.append(start("master", "--quality", "low", self.rig, log=self.log))
+        wait_until(lambda: "the master leads again" in node_log.read_text(), 60, "frames of the master")
+        led = self.shown()
+        wait_until(lambda: self.shown() > led + 10, 60, "more of them")
+        said = node_log.read_text()
+        self.assertEqual(said.count("building "), 1, "nothing is built again")
+        self.assertNotIn("lost the master; joining again", said)
+        self.assertIn("the world goes on at", self.log.read_text())
 
 
 if __name__ == "__main__":

@@ -50,6 +50,8 @@ class FakeSession : public session::Session {
         if (script_.empty()) return std::nullopt;
         return script_.front().first;
     }
+    [[nodiscard]] bool isReckoned() const override { return false; }
+    [[nodiscard]] std::optional<std::uint32_t> renumbered() const override { return {}; }
     [[nodiscard]] net::Moment stateArrival() const override {
         return net::Moment{net::Duration{1}};
     }
