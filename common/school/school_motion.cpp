@@ -71,10 +71,13 @@ struct Lone {
             return command(Action::Hover);
         if (motion::isTurn(present) || motion::isStart(present))
             return command(motion::gaitOf(present));
-        if (!motion::isForward(present) && !motion::isSlope(present)) return;
+        if (motion::isForward(present) || motion::isSlope(present)) command(levelled(present));
+    }
+    // The slope to the pitch that it is to have, or its gait once it has it.
+    [[nodiscard]] Action levelled(Action present) const {
         const Action gait = motion::gaitOf(present);
         const float error = pitchError();
-        command(takesSlope(gait, error) ? motion::slopeOf(gait, error > 0) : gait);
+        return takesSlope(gait, error) ? motion::slopeOf(gait, error > 0) : gait;
     }
     // The turn of a circle is that of its curve, and what fins add where that is too wide.
     [[nodiscard]] float speed() const {
@@ -111,20 +114,21 @@ struct Lone {
         commands.pitch[fish] = commands.yawRate[fish] = 0;
         const Action present = commanded();
         if (motion::staysInPlace(present)) return command(Action::Hover);
-        const float error = pitchError();
-        if (takesSlope(Action::ForwardSlow, error))
-            return command(motion::slopeOf(Action::ForwardSlow, error > 0));
-        using enum Action;
-        Action curve = present;
-        if (present != CurveLeftWideSlow && present != CurveRightWideSlow)
-            curve = obstructed(CurveLeftWideSlow) <= obstructed(CurveRightWideSlow)
-                        ? CurveLeftWideSlow
-                        : CurveRightWideSlow;
+        const Action level = levelled(Action::ForwardSlow);
+        if (motion::isSlope(level)) return command(level);
+        const Action curve = circling(present);
         command(curve);
         const float lacks = speed() / radius(curve) - std::abs(turnRate(curve));
         const float added = std::max(lacks, 0.0F) / static_cast<float>(kTicksPerSecond);
         commands.yawRate[fish] = static_cast<std::int16_t>(
-            motion::roundToEven((curve == CurveLeftWideSlow ? added : -added) / motion::kYawUnit));
+            motion::roundToEven((turnRate(curve) > 0 ? added : -added) / motion::kYawUnit));
+    }
+    // The curve that it is on already, or that with more room.
+    [[nodiscard]] Action circling(Action present) const {
+        using enum Action;
+        if (present == CurveLeftWideSlow || present == CurveRightWideSlow) return present;
+        return obstructed(CurveLeftWideSlow) <= obstructed(CurveRightWideSlow) ? CurveLeftWideSlow
+                                                                               : CurveRightWideSlow;
     }
 
     static constexpr float kPitchUnit = 1.0F / 32768;  // of MotorCommands::pitch

@@ -18,10 +18,6 @@ constexpr float kMostSeconds = 8;
 constexpr float kAddedSpeed = 0.5F;
 // A smooth step is so much steeper in its middle than in the mean.
 constexpr float kSteepest = 1.5F;
-// Differences that nobody sees.
-constexpr float kLeastMetres = 0.001F;
-constexpr float kLeastTurn = 0.01F;         // radians
-constexpr std::uint16_t kLeastPhase = 655;  // a hundredth of a cycle
 constexpr std::uint8_t kPoseTicks = 40;
 
 motion::PresentedFish shownFish(const wire::StateFrame& frame, std::size_t fish) {
@@ -51,25 +47,27 @@ void Convergence::begin(const wire::StateFrame& shown, const wire::StateFrame& f
     assert(shown.after.size() == first.after.size());
     begun_ = worldOf(first);
     gliding_.clear();
-    for (std::size_t fish = 0; fish < first.after.size(); ++fish) {
-        const motion::FishRecord &from = shown.after[fish], &to = first.after[fish];
-        if (isAway(from) || isAway(to)) continue;
-        const motion::PresentedFish picture = shownFish(shown, fish);
-        const motion::PresentedFish master = shownFish(first, fish);
-        Gliding one{.fish = fish, .metres = picture.positionMetres - master.positionMetres};
-        const float distance = glm::length(one.metres);
-        if (!(distance < kFarthestMetres)) continue;
-        one.turn = rotationOf(picture) * glm::conjugate(rotationOf(master));
-        if (one.turn.w < 0) one.turn = -one.turn;
-        one.seconds = std::clamp(kSteepest * distance / kAddedSpeed, kLeastSeconds, kMostSeconds);
-        const auto phase = static_cast<std::int16_t>(from.phase - to.phase);
-        one.changesPose = from.segment != to.segment || std::abs(phase) > kLeastPhase;
-        one.from = from.segment;
-        one.fromPhase = from.phase;
-        one.to = to.segment;
-        const bool isSeen = distance > kLeastMetres || glm::angle(one.turn) > kLeastTurn;
-        if (isSeen || one.changesPose) gliding_.push_back(one);
-    }
+    for (std::size_t fish = 0; fish < first.after.size(); ++fish)
+        if (const auto one = glidingBetween(shown, first, fish)) gliding_.push_back(*one);
+}
+
+std::optional<Convergence::Gliding> Convergence::glidingBetween(const wire::StateFrame& shown,
+                                                                const wire::StateFrame& first,
+                                                                std::size_t fish) {
+    const motion::FishRecord &from = shown.after[fish], &to = first.after[fish];
+    if (isAway(from) || isAway(to)) return std::nullopt;
+    const motion::PresentedFish picture = shownFish(shown, fish);
+    const motion::PresentedFish master = shownFish(first, fish);
+    Gliding one{.fish = fish, .metres = picture.positionMetres - master.positionMetres};
+    const float distance = glm::length(one.metres);
+    if (!(distance < kFarthestMetres)) return std::nullopt;
+    one.turn = rotationOf(picture) * glm::conjugate(rotationOf(master));
+    if (one.turn.w < 0) one.turn = -one.turn;
+    one.seconds = std::clamp(kSteepest * distance / kAddedSpeed, kLeastSeconds, kMostSeconds);
+    one.from = from.segment;
+    one.fromPhase = from.phase;
+    one.to = to.segment;
+    return one;
 }
 
 void Convergence::apply(wire::StateFrame& frame) {
@@ -83,28 +81,33 @@ void Convergence::apply(wire::StateFrame& frame) {
 }
 
 void Convergence::apply(double world, std::vector<motion::FishRecord>& records) {
-    motion::MotionStates scratch;
-    scratch.resize(1);
     const double ticks = std::max(world - begun_, 0.0);
     for (const Gliding& one : gliding_) {
         if (one.fish >= records.size() || isAway(records[one.fish])) continue;
         motion::FishRecord& record = records[one.fish];
         const auto share = static_cast<float>(ticks / kTicksPerSecond) / one.seconds;
-        const float left = 1 - smoothStep(share);
-        motion::BodyFrame body = motion::bodyFrameOf(record);
-        body.position += left * one.metres;
-        body.rotation = glm::slerp(glm::quat{1, 0, 0, 0}, one.turn, left) * body.rotation;
-        const std::uint32_t skin = record.skin;
-        motion::setFromRecord(scratch, 0, record);
-        motion::setBodyFrame(scratch, 0, body);
-        record = motion::recordOf(scratch, 0);
-        record.skin = skin;
-        if (!one.changesPose || ticks >= kPoseTicks || record.segment != one.to) continue;
-        record.fromSegment = one.from;
-        record.fromPhase = one.fromPhase;
-        record.warpFrame = static_cast<std::uint8_t>(ticks);
-        record.warpLength = kPoseTicks;
+        move(record, one, 1 - smoothStep(share));
+        if (ticks < kPoseTicks && record.segment == one.to)
+            pose(record, one, static_cast<std::uint8_t>(ticks));
     }
+}
+
+void Convergence::move(motion::FishRecord& record, const Gliding& one, float left) {
+    motion::BodyFrame body = motion::bodyFrameOf(record);
+    body.position += left * one.metres;
+    body.rotation = glm::slerp(glm::quat{1, 0, 0, 0}, one.turn, left) * body.rotation;
+    const std::uint32_t skin = record.skin;
+    motion::setFromRecord(one_, 0, record);
+    motion::setBodyFrame(one_, 0, body);
+    record = motion::recordOf(one_, 0);
+    record.skin = skin;
+}
+
+void Convergence::pose(motion::FishRecord& record, const Gliding& one, std::uint8_t ticks) {
+    record.fromSegment = one.from;
+    record.fromPhase = one.fromPhase;
+    record.warpFrame = ticks;
+    record.warpLength = kPoseTicks;
 }
 
 }  // namespace aquarama::session

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <glm/gtc/quaternion.hpp>
@@ -21,6 +22,7 @@ namespace aquarama::session {
 // thread.
 class Convergence {
   public:
+    Convergence() { one_.resize(1); }
     // `shown`: what the picture would show next; `first`: the master's frame that takes its place.
     void begin(const wire::StateFrame& shown, const wire::StateFrame& first);
     // Adds what is left of the difference to the fish of a frame.
@@ -33,13 +35,19 @@ class Convergence {
         glm::vec3 metres{};          // the picture less the master's
         glm::quat turn{1, 0, 0, 0};  // from the master's rotation to that of the picture
         float seconds = 0;           // that it takes
-        std::uint16_t from = 0, fromPhase = 0, to = 0;  // of the change of pose
-        bool changesPose = false;
+        std::uint16_t from = 0, fromPhase = 0, to = 0;  // segments of the change of pose
     };
+    // Nothing: the fish is shown where the master has it.
+    [[nodiscard]] static std::optional<Gliding> glidingBetween(const wire::StateFrame& shown,
+                                                               const wire::StateFrame& first,
+                                                               std::size_t fish);
     void apply(double world, std::vector<motion::FishRecord>& records);
+    void move(motion::FishRecord& record, const Gliding& one, float left);
+    static void pose(motion::FishRecord& record, const Gliding& one, std::uint8_t ticks);
 
     double begun_ = 0;  // the moment of the world, in ticks
     std::vector<Gliding> gliding_;
+    motion::MotionStates one_;  // a fish, to unpack and pack its record
 };
 
 }  // namespace aquarama::session

@@ -36,15 +36,15 @@ void DeadReckoning::begin(Cause cause,
                           std::shared_ptr<school::SchoolMotion> motion) {
     const school::SchoolState* const newest = school.newest();
     if (!newest_ || !released_ || newest == nullptr || motion == nullptr) return;
-    const bool isSilence = cause == Cause::Silence;
-    const int missed = isSilence ? kSilent : 1;
+    const auto [missed, lag] =
+        cause == Cause::Silence ? std::pair{kSilent, kSilent} : std::pair{1, 0};
     fish_ = Swimming{*newest,
                      school.recent(),
                      std::move(motion),
                      {newest->tick.value + kTicksAsCommanded},
                      {released_->frame.value + static_cast<std::uint64_t>(missed)},
                      missed,
-                     isSilence ? kSilent : 0};
+                     lag};
 }
 
 Frame DeadReckoning::firstFrame() const {

@@ -164,8 +164,9 @@ void Mailbox::finish(const FinishedFrame& finished) {
 std::optional<ReleaseOrder> Mailbox::awaitRelease(Frame frame) {
     std::unique_lock lock(mutex_);
     const auto isReleased = [&] { return release_ && release_->frame >= frame; };
-    await(lock, [&] { return isReleased() || isForgotten_ || interruption_; });
-    if (isForgotten_ && !interruption_) return ReleaseOrder{frame, {}};
+    const auto isOver = [&] { return isForgotten_ || interruption_; };
+    await(lock, [&] { return isReleased() || isOver(); });
+    if (isForgotten_) return ReleaseOrder{frame, {}};
     return isReleased() ? release_ : std::nullopt;  // the last frame is shown before the end
 }
 

@@ -254,8 +254,7 @@ void MasterLink::readState(const net::ByteVector& bytes) {
 
 void MasterLink::offerFrames() {
     while (auto frame = school_.next()) {
-        if (reckoning_.isOn() && !mayEndReckoning(*frame)) continue;
-        if (reckoning_.isOn()) endReckoning(*frame);
+        if (!isLedBy(*frame)) continue;
         reckoning_.saw(frame->state);
         put(*std::move(frame));
     }
@@ -283,9 +282,12 @@ void MasterLink::reckon(DeadReckoning::Cause cause) {
     mailbox_.release(reckoning_.overtaken(net::monotonicNow()));
 }
 
-bool MasterLink::mayEndReckoning(const ArrivedState& frame) const {
-    return phase_ == Phase::Member && joined_ && frame.state.frame >= *joined_ &&
-           !frame.state.after.empty();
+bool MasterLink::isLedBy(const ArrivedState& frame) {
+    if (!reckoning_.isOn()) return true;
+    const bool isMember = phase_ == Phase::Member && joined_ && frame.state.frame >= *joined_;
+    if (!isMember || frame.state.after.empty()) return false;
+    endReckoning(frame);
+    return true;
 }
 
 // Its fish glide from where the picture would have had them in this frame.

@@ -76,11 +76,10 @@ class MasterLink {
                net::BlobCache cache,
                Mailbox& mailbox);
 
-    // Requests of the render thread, in the order in which they are posted. An envelope is sent to
-    // the master; it is dropped while the node is not welcomed.
-
+    // What the render thread asks for. An envelope is sent to the master; it is dropped while the
+    // node is not welcomed.
     using Request = std::variant<JoinRequest, PreparedLook, NodeFacts, LoggedLine, v1::Envelope>;
-    // From any thread; waits while too many requests are posted.
+    // From any thread, in this order; waits while too many requests are posted.
     void post(const Request& request);
     // From any thread. The line is lost where too many wait.
     void log(Severity severity, const std::string& line);
@@ -132,8 +131,9 @@ class MasterLink {
     void put(ArrivedState frame);
     // The master is silent: the node makes the frames itself, while it joins again.
     void reckon(DeadReckoning::Cause cause);
-    // Whether a frame of the master takes the place of one that the node has made.
-    [[nodiscard]] bool mayEndReckoning(const ArrivedState& frame) const;
+    // Whether a frame of the master is shown: the first takes the place of those that the node has
+    // made.
+    [[nodiscard]] bool isLedBy(const ArrivedState& frame);
     void endReckoning(const ArrivedState& first);
     void sayHello();
     // A node that has just come draws as its neighbours do: it waits for the fish and the skins

@@ -17,6 +17,7 @@ namespace aquarama::session {
 // Used by the net thread.
 class RecentFish {
   public:
+    // Forgets them.
     void clear() { ticks_.clear(); }
     // The fish of the next tick. The buffers of the oldest are used again.
     void remember(const school::SchoolState& school) {
