@@ -136,15 +136,19 @@ class Hall(Wall):
             print(f"---- {machine}", self.log_of(machine).read_text()[-2500:], sep="\n")
 
 
-def takeover(hall, old, new, with_etcd):
+def takeover(hall, old, new, way):
     """The seconds until the other machine is the master, and for how long the wall stood still."""
     hall.await_whole(old)
-    if with_etcd:
+    if way == "killed with etcd's leader":
         hall.lead_etcd_on(old)
     time.sleep(1)
     times, since, begun = hall.said(new, "takes over at"), time.monotonic_ns(), time.monotonic()
-    hall.kill(old)
-    if with_etcd:
+    if way == "changed":
+        hall.spawn("order", old, [BIN / "aquarama", "set", hall.rig, "master", MACHINES[new], "--key",
+                                  hall.folder / "operator.key"], hall.folder / "order.log", {})
+    else:
+        hall.kill(old)
+    if way == "killed with etcd's leader":
         hall.kill(f"etcd on {old}")
     while hall.said(new, "takes over at") == times:
         if time.monotonic() - begun > PATIENCE:
@@ -154,9 +158,10 @@ def takeover(hall, old, new, with_etcd):
     seconds = time.monotonic() - begun
     time.sleep(3)  # it is seen to be shown
     still = hall.longest_gap_ms(CHANNELS, since) / 1e3
-    if with_etcd:
+    if way == "killed with etcd's leader":
         hall.start_etcd(old)
-    hall.start_machine(old)
+    if way != "changed":
+        hall.start_machine(old)
     return seconds, still
 
 
@@ -165,14 +170,13 @@ def quantiles(seconds):
     return f"{statistics.median(ordered):.2f} / {ordered[int(0.99 * (len(ordered) - 1))]:.2f} / {ordered[-1]:.2f}"
 
 
-def take_over_often(hall, order, options, with_etcd):
+def take_over_often(hall, order, options, way):
     measured = []
     for _ in range(options.takeovers):
-        measured.append(takeover(hall, *order, with_etcd))
+        measured.append(takeover(hall, *order, way))
         order.reverse()
     taken, still = zip(*measured)
-    what = "with etcd's leader" if with_etcd else "alone"
-    report(f"master killed {what}, {options.takeovers} x", master_s=quantiles(taken), wall_still_s=quantiles(still),
+    report(f"master {way}, {options.takeovers} x", master_s=quantiles(taken), wall_still_s=quantiles(still),
            of="(median / 99 % / most)")
 
 
@@ -228,8 +232,8 @@ def start_all(hall):
 
 def hurt(hall, options):
     order = ["master", "spare"]
-    take_over_often(hall, order, options, with_etcd=False)
-    take_over_often(hall, order, options, with_etcd=True)
+    for way in ("killed", "killed with etcd's leader", "changed"):
+        take_over_often(hall, order, options, way)
     hall.await_whole(order[0])
     bad_network(hall, options)
     for machines in [one for count in (1, 2) for one in itertools.combinations(ADDRESS, count)]:

@@ -13,12 +13,18 @@ import time
 import unittest
 from pathlib import Path
 
-from show import BIN, ROOT, ShowCase, aquarama, children_of, control_address, end, start, trace, wait_until
+from show import BIN, ROOT, ShowCase, aquarama, children_of, control_address, end, rig_on_free_ports, start, trace, \
+    wait_until
 
 KILLS = int(os.environ.get("AQUARAMA_KILLS", "1"))
 
 
 class Journal(ShowCase):
+    def setUp(self):
+        super().setUp()
+        # Sixty fish: the default scene lives for ninety seconds first, of which a debug build takes three.
+        self.rig = rig_on_free_ports(self.folder.name, replace=[("reef.txtpb", "reef_1998.txtpb")])
+
     def tick(self):
         """Of the world; nothing where no master answers."""
         found = re.search(r"tick (\d+)", aquarama("explain", "--fish", "0", self.rig).stdout)

@@ -213,6 +213,7 @@ class StageNode {
     void freeze() { cable_.cut(true); }
     void thaw() { cable_.cut(false); }
     session::Session& session() { return *session_; }
+    // How often a master has welcomed it.
     int joins() const { return joins_; }
     // Why it was refused; empty while it was not.
     std::string refusal() const {
@@ -244,6 +245,7 @@ class StageNode {
     session::Release show() {
         while (auto state = session_->nextFrame()) {
             const Frame frame = state->frame;
+            if (session_->renumbered()) ++joins_;  // beside the frames
             // Beside the frames, as a node does.
             if (const auto next = session_->nextLook())
                 building_ = std::async(std::launch::async, [this, next = *next] { build(next); });
@@ -252,7 +254,7 @@ class StageNode {
             const session::Release release = session_->readyThenWait(frame);
             if (release == session::Release::Rejoin || release == session::Release::Quit)
                 return release;
-            if (release == session::Release::Present) {
+            if (release == session::Release::Present && !session_->isReckoned()) {
                 journal_.note({Event::Kind::Presented, name_, std::move(*state)});
             }
         }
