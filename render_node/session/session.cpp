@@ -78,13 +78,14 @@ class NodeFigures {
 
     void begin() { begun_ = net::monotonicNow(); }  // of a frame
     void finish() { picture_(net::secondsIn(net::monotonicNow() - begun_)); }
-    // A frame was released or skipped.
-    void release(Release release, const LinkFigures& link) {
+    // A frame was released or skipped; the node has made it itself, or the master.
+    void release(Release release, bool isReckoned, const LinkFigures& link) {
         const net::Moment now = net::monotonicNow();
         if (release == Release::Present) {
             if (presented_ > 0) frame_(net::secondsIn(now - lastPresent_));
             lastPresent_ = now;
             frames_(static_cast<double>(++presented_));
+            if (isReckoned) reckoned_(static_cast<double>(++own_));
         }
         if (release == Release::Skip) skips_(static_cast<double>(++skipped_));
         offset_(link.clockOffsetSeconds);
@@ -107,6 +108,8 @@ class NodeFigures {
     net::Record frame_ =
         metrics_.histogram("aquarama_present_seconds", "Time between two frames that were shown");
     net::Record frames_ = metrics_.counter("aquarama_presented_total", "Frames that were shown");
+    net::Record reckoned_ = metrics_.counter(
+        "aquarama_reckoned_total", "Frames of those that it made itself, without a master");
     net::Record skips_ =
         metrics_.counter("aquarama_skipped_total", "Frames that the wall showed without this node");
     net::Record offset_ =
@@ -119,7 +122,7 @@ class NodeFigures {
     net::Record celsius_ = metrics_.gauge("aquarama_gpu_celsius",
                                           "Temperature of the graphics card; 0 where none is told");
     net::Moment begun_{}, lastPresent_{};
-    std::uint64_t presented_ = 0, skipped_ = 0;
+    std::uint64_t presented_ = 0, own_ = 0, skipped_ = 0;
 };
 
 // The render thread's side of a mailbox whose other side is a net thread.
@@ -193,7 +196,7 @@ class LinkSession final : public Session {
         // priority: on a software renderer the net threads would have to wait.
         net::runInRealTime();
         const Release release = awaitRelease(frame);
-        if (figures_) figures_->release(release, link_.figures());
+        if (figures_) figures_->release(release, taken_.isReckoned, link_.figures());
         return release;
     }
 
