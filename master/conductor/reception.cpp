@@ -287,9 +287,12 @@ v1::OrderReply Conductor::changeMaster(const std::string& user, const v1::Order&
         reply.set_reason("the show has no standby: write standby { ... } in the rig");
     } else if (wanted == options_.machine) {
         reply.set_outcome(v1::OrderReply::DONE);
-    } else if (wanted != standby_.inStep()) {
+    } else if (wanted != standby_.machine()) {
         reply.set_reason(legible(wanted, wire::kMostNameBytes) + " does not stand by" +
-                         (standby_.inStep().empty() ? "" : ", but " + standby_.inStep()));
+                         (standby_.machine().empty() ? "" : ", but " + standby_.machine()));
+    } else if (standby_.inStep().empty()) {
+        reply.set_outcome(v1::OrderReply::WAITING);
+        reply.set_reason(wanted + " catches up with the world first");
     } else {
         logInfo("{} makes {} the master", user, wanted);
         reply.set_outcome(v1::OrderReply::WAITING);

@@ -45,7 +45,9 @@ class StandbyFeed {
     // Its master ends with the show, which nobody is to take over.
     void sayFarewell();
     [[nodiscard]] bool isThere() const { return !peer_.empty(); }
-    // The machine that simulates along; empty: there is none.
+    // The machine that stands by; empty: there is none.
+    [[nodiscard]] std::string machine() const { return isThere() ? machine_ : ""; }
+    // The same, where it simulates along; empty: it does not, or is behind.
     [[nodiscard]] std::string inStep() const { return isInStep_ ? machine_ : ""; }
     // For operators; `machine`: the one that is the master.
     [[nodiscard]] v1::StandbyStatus status(const std::string& machine, net::Moment now) const;

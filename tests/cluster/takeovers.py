@@ -109,6 +109,15 @@ class Hall(Wall):
                                 f"tcp://{ADDRESS['spare']}:7400", "--headless", "--trace", self.folder],
                    self.log_of(name), {"LP_NUM_THREADS": "0"})
 
+    def longest_gap_ms(self, names, since_ns):
+        """Of all runs of the master: numbers of frames begin again with each."""
+        gaps = [0]
+        for name in names:
+            rows = [line.split(",") for line in (self.folder / f"{name}.csv").read_text().splitlines()]
+            shown = [int(row[3]) for row in rows if len(row) == 4 and row[3].isdigit() and int(row[3]) > since_ns]
+            gaps += [after - before for before, after in zip(shown, shown[1:])]
+        return max(gaps) / 1e6
+
     def status(self, machine):
         return self.aquarama(machine, "status", "--key", self.folder / "operator.key", "--master",
                              f"tcp://{ADDRESS[machine]}:7400").stdout
@@ -132,8 +141,14 @@ class Hall(Wall):
             raise
 
     def print_logs(self):
-        for machine in MACHINES:
-            print(f"---- {machine}", self.log_of(machine).read_text()[-2500:], sep="\n")
+        for name in [*MACHINES, "order"]:
+            if self.log_of(name).exists():
+                print(f"---- {name}", self.log_of(name).read_text()[-2500:], sep="\n")
+
+
+def a_moment_ago():
+    """So that the last frame before what is done now counts: nanoseconds of the monotonic clock."""
+    return time.monotonic_ns() - 300_000_000
 
 
 def takeover(hall, old, new, way):
@@ -142,7 +157,7 @@ def takeover(hall, old, new, way):
     if way == "killed with etcd's leader":
         hall.lead_etcd_on(old)
     time.sleep(1)
-    times, since, begun = hall.said(new, "takes over at"), time.monotonic_ns(), time.monotonic()
+    times, since, begun = hall.said(new, "takes over at"), a_moment_ago(), time.monotonic()
     if way == "changed":
         hall.spawn("order", old, [BIN / "aquarama", "set", hall.rig, "master", MACHINES[new], "--key",
                                   hall.folder / "operator.key"], hall.folder / "order.log", {})
@@ -176,7 +191,7 @@ def take_over_often(hall, order, options, way):
         measured.append(takeover(hall, *order, way))
         order.reverse()
     taken, still = zip(*measured)
-    report(f"master {way}, {options.takeovers} x", master_s=quantiles(taken), wall_still_s=quantiles(still),
+    report(f"master {way}, {options.takeovers} x ", master_s=quantiles(taken), wall_still_s=quantiles(still),
            of="(median / 99 % / most)")
 
 
@@ -189,7 +204,7 @@ def lead_after(hall):
 
 
 def cut(hall, machines, options):
-    since = time.monotonic_ns()
+    since = a_moment_ago()
     for machine in machines:
         hall.plug(machine, False)
     time.sleep(options.cut)
@@ -204,19 +219,29 @@ def cut(hall, machines, options):
     assert both <= 1, "two masters"
 
 
-def bad_network(hall, options):
+def lost_packets(hall, options):
     for machine in ADDRESS:
         hall.on(machine, "iptables", "-A", "INPUT", "-m", "statistic", "--mode", "random", "--probability", "0.01",
                 "-j", "DROP")
-        hall.run(machine, "tc", "qdisc", "add", "dev", "eth0", "root", "netem", "delay", "10ms", "20ms")
     since = time.monotonic_ns()
     time.sleep(options.cut + 5)
     gaps = hall.intervals_ms(CHANNELS, since)
     for machine in ADDRESS:
         hall.on(machine, "iptables", "-F", "INPUT")
-        hall.run(machine, "tc", "qdisc", "del", "dev", "eth0", "root")
+    report("1 % of packets lost", frames_ms=hosts.quantiles(gaps) + " (median / 99 % / most)", leads=lead_after(hall))
+
+
+def slow_cables(hall, options):
+    """To both machines that may be the master; they stay slow."""
+    cables = [hosts.SlowCable(hall, machine, 0, 20) for machine in MACHINES]
     leader = lead_after(hall)
-    report("1 % lost, packets 20 ms apart", frames_ms=hosts.quantiles(gaps) + " (median / 99 % / most)", leads=leader)
+    since = time.monotonic_ns()
+    time.sleep(options.cut + 5)
+    gaps = hall.intervals_ms(CHANNELS, since)
+    report("both 0 to 20 ms away, each way", frames_ms=hosts.quantiles(gaps) + " (median / 99 % / most)",
+           led=leader, leads=lead_after(hall))
+    for cable in cables:
+        cable.over = True
 
 
 def start_all(hall):
@@ -235,9 +260,10 @@ def hurt(hall, options):
     for way in ("killed", "killed with etcd's leader", "changed"):
         take_over_often(hall, order, options, way)
     hall.await_whole(order[0])
-    bad_network(hall, options)
+    lost_packets(hall, options)
     for machines in [one for count in (1, 2) for one in itertools.combinations(ADDRESS, count)]:
         cut(hall, machines, options)
+    slow_cables(hall, options)
     refused = sum(hall.said(name, "nothing that it says counts") for name in CHANNELS)
     differs = sum(hall.said(machine, "differs from the master's") for machine in MACHINES)
     report("all in all", masters_of_an_older_lease_refused=refused, worlds_that_differed=differs)
