@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "common/motion/motor_tables.h"
 #include "common/place/contact.h"
 
 namespace aquarama::school {
@@ -58,7 +59,7 @@ struct Lone {
     [[nodiscard]] float pitchError() const {
         const glm::vec3 nose =
             motion::meanRotation(tables, school.states, fish) * glm::vec3{1, 0, 0};
-        return static_cast<float>(school.commands.pitch[fish]) * kPitchUnit - nose.y;
+        return static_cast<float>(school.commands.pitch[fish]) * motion::kPitchUnit - nose.y;
     }
     // Not where the slope would overshoot before it is ended.
     [[nodiscard]] bool takesSlope(Action gait, float error) const {
@@ -131,10 +132,9 @@ struct Lone {
                                                                                : CurveRightWideSlow;
     }
 
-    static constexpr float kPitchUnit = 1.0F / 32768;  // of MotorCommands::pitch
-    static constexpr float kSecondsToEnd = 0.4F;       // a slope: a command, and its warp
-    static constexpr float kLeastTurnRate = 0.01F;     // radians a second
-    static constexpr float kWidestMetres = 2.5F;       // a circle, its radius
+    static constexpr float kSecondsToEnd = 0.4F;    // a slope: a command, and its warp
+    static constexpr float kLeastTurnRate = 0.01F;  // radians a second
+    static constexpr float kWidestMetres = 2.5F;    // a circle, its radius
 };
 
 }  // namespace

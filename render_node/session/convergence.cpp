@@ -97,9 +97,9 @@ void Convergence::move(motion::FishRecord& record, const Gliding& one, float lef
     body.position += left * one.metres;
     body.rotation = glm::slerp(glm::quat{1, 0, 0, 0}, one.turn, left) * body.rotation;
     const std::uint32_t skin = record.skin;
-    motion::setFromRecord(one_, 0, record);
-    motion::setBodyFrame(one_, 0, body);
-    record = motion::recordOf(one_, 0);
+    motion::setFromRecord(scratch_, 0, record);
+    motion::setBodyFrame(scratch_, 0, body);
+    record = motion::recordOf(scratch_, 0);
     record.skin = skin;
 }
 

@@ -22,7 +22,7 @@ namespace aquarama::session {
 // thread.
 class Convergence {
   public:
-    Convergence() { one_.resize(1); }
+    Convergence() { scratch_.resize(1); }
     // `shown`: what the picture would show next; `first`: the master's frame that takes its place.
     void begin(const wire::StateFrame& shown, const wire::StateFrame& first);
     // Adds what is left of the difference to the fish of a frame.
@@ -47,7 +47,7 @@ class Convergence {
 
     double begun_ = 0;  // the moment of the world, in ticks
     std::vector<Gliding> gliding_;
-    motion::MotionStates one_;  // a fish, to unpack and pack its record
+    motion::MotionStates scratch_;  // a fish, to unpack and pack its record
 };
 
 }  // namespace aquarama::session

@@ -39,7 +39,7 @@ void Mailbox::startAnew(wire::Pace pace, Frame first, std::optional<std::uint32_
     states_.clear();
     finished_.clear();
     release_.reset();
-    nextLook_.reset();
+    if (renumbered) nextLook_.reset();  // of another run
     renumbered_ = renumbered;
     isForgotten_ = true;
     changed_.notify_all();

@@ -97,6 +97,10 @@ void MasterLink::run() {
         }
     } catch (const Error& error) {  // no new connection could be made
         mailbox_.refuse(error.what());
+        if (reckoning_.isOn()) {  // nobody waits for that answer
+            logError("{}: {}; the node ends", connection_.name(), error.what());
+            mailbox_.interrupt(Release::Quit);
+        }
     }
     if (connection_.session() != 0) connection_.farewell();
 }
@@ -142,7 +146,9 @@ void MasterLink::sayHello() {
     frames_.forget();
 }
 
+// One of another run is ignored.
 void MasterLink::handle(const PreparedLook& built) {
+    if (phase_ != Phase::Building && phase_ != Phase::Member) return;
     constexpr std::size_t kMostLooks = 2;  // that is shown, and the next
     if (built_.size() == kMostLooks) built_.erase(built_.begin());
     built_.push_back(built);
@@ -185,7 +191,7 @@ void MasterLink::take(const v1::Envelope& message) {
             if (phase_ == Phase::Greeting) takeWelcome(message);
             return;
         case v1::Envelope::kRefusal:
-            if (phase_ == Phase::Greeting) mailbox_.refuse(message.refusal().reason());
+            if (phase_ == Phase::Greeting) refuse(message.refusal().reason());
             return;
         case v1::Envelope::kDismissed:  // may be of another run, which does not know this node
             return takeDismissal(message.dismissed());
@@ -208,7 +214,11 @@ void MasterLink::takeOfRun(const v1::Envelope& message) {
         case v1::Envelope::kKeyframe:
             return school_.take(message.keyframe());
         case v1::Envelope::kJoined:
-            return takeJoined(message.joined());
+            joined_ = Frame{message.joined().first_frame()};
+            // Until that frame is there, those that the node has made are shown.
+            if (!reckoning_.isOn())
+                mailbox_.start(static_cast<wire::Pace>(welcome_.pace()), *joined_);
+            return;
         case v1::Envelope::kPrepare:
             return prepare(message.prepare().look());
         case v1::Envelope::kPresent:
@@ -279,6 +289,7 @@ void MasterLink::reckon(DeadReckoning::Cause cause) {
     if (!isShown || shown == built_.end() || reckoning_.isOn()) return;
     reckoning_.begin(cause, school_, shown->motion);
     if (!reckoning_.isOn()) return;
+    shown_ = *shown;
     mailbox_.release(reckoning_.overtaken(net::monotonicNow()));
 }
 
@@ -314,7 +325,7 @@ void MasterLink::takeWelcome(const v1::Envelope& message) {
     try {
         connection_.subscribeState(welcome_.state_address());
     } catch (const Error& error) {
-        return mailbox_.refuse(error.what());
+        return refuse(error.what());
     }
     fetch_.begin(blobsIn(welcome_.look()));
 }
@@ -368,19 +379,20 @@ void MasterLink::admit() {
     if (phase_ != Phase::Fetching) return mailbox_.offerNextLook(admitted);
     phase_ = Phase::Building;
     if (!reckoning_.isOn()) return mailbox_.admit(admitted);
-    const auto shown = std::ranges::find(built_, reckoning_.look(), &PreparedLook::look);
-    if (shown->show != showOf(welcome_)) return lose("it shows something else");
-    PreparedLook same = *shown;
+    if (shown_.show != showOf(welcome_)) return lose("it shows something else");
+    PreparedLook same = shown_;
     same.look = welcome_.look().number();
     renumbered_ = same.look;
     built_.clear();
     handle(same);
 }
 
-// Until the first frame is there, those that the node has made are shown.
-void MasterLink::takeJoined(const v1::Joined& joined) {
-    joined_ = Frame{joined.first_frame()};
-    if (!reckoning_.isOn()) mailbox_.start(static_cast<wire::Pace>(welcome_.pace()), *joined_);
+// A node that joins beside its frames joins anew, and is told again.
+void MasterLink::refuse(const std::string& reason) {
+    if (!reckoning_.isOn()) return mailbox_.refuse(reason);
+    phase_ = Phase::Outside;
+    connection_.leave();
+    mailbox_.interrupt(Release::Rejoin);
 }
 
 // While a live show is shown it joins beside the frames. A render thread that is still in join() is
@@ -410,7 +422,7 @@ void MasterLink::doWhatIsDue(net::Moment now) {
     try {
         if (fetch_.turn(now)) admit();
     } catch (const Error& problem) {
-        mailbox_.refuse(problem.what());
+        refuse(problem.what());
     }
     skins_.turn(now);
     school_.turn(now);

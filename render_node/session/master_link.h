@@ -125,7 +125,7 @@ class MasterLink {
 
     // All blobs are there.
     void admit();
-    void takeJoined(const v1::Joined& joined);
+    void refuse(const std::string& reason);
     // Puts frames whose fish are known into the mailbox.
     void offerFrames();
     void put(ArrivedState frame);
@@ -162,6 +162,7 @@ class MasterLink {
     DeadReckoning reckoning_;
     Convergence convergence_;
     std::vector<PreparedLook> built_;  // the newest two looks; the newest last
+    PreparedLook shown_;               // while the node makes the frames
     std::optional<Frame> joined_;      // the first frame for this node as a member
     // Once another run has welcomed the node beside the frames: its number of what is shown.
     std::optional<std::uint32_t> renumbered_;

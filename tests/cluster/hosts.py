@@ -262,15 +262,21 @@ def quantiles(gaps):
     return f"{statistics.median(gaps):.1f} / {gaps[int(0.99 * (len(gaps) - 1))]:.1f} / {gaps[-1]:.0f}"
 
 
-def loss(wall, options):
+def intervals_with_loss_ms(wall, seconds):
+    """Between frames, while one packet of a hundred is lost at every machine."""
     for machine in ADDRESS:
         wall.on(machine, "iptables", "-A", "INPUT", "-m", "statistic", "--mode", "random", "--probability", "0.01",
                 "-j", "DROP")
     since = time.monotonic_ns()
-    time.sleep(options.cut + 2)
+    time.sleep(seconds)
     gaps = wall.intervals_ms(CHANNELS, since)
     for machine in ADDRESS:
         wall.on(machine, "iptables", "-F", "INPUT")
+    return gaps
+
+
+def loss(wall, options):
+    gaps = intervals_with_loss_ms(wall, options.cut + 2)
     seconds = back(wall)
     report("1 % of packets lost", frames_ms=f"{quantiles(gaps)} (median / 99 % / most)", back_s=f"{seconds:.1f}")
 

@@ -220,14 +220,7 @@ def cut(hall, machines, options):
 
 
 def lost_packets(hall, options):
-    for machine in ADDRESS:
-        hall.on(machine, "iptables", "-A", "INPUT", "-m", "statistic", "--mode", "random", "--probability", "0.01",
-                "-j", "DROP")
-    since = time.monotonic_ns()
-    time.sleep(options.cut + 5)
-    gaps = hall.intervals_ms(CHANNELS, since)
-    for machine in ADDRESS:
-        hall.on(machine, "iptables", "-F", "INPUT")
+    gaps = hosts.intervals_with_loss_ms(hall, options.cut + 5)
     report("1 % of packets lost", frames_ms=hosts.quantiles(gaps) + " (median / 99 % / most)", leads=lead_after(hall))
 
 

@@ -517,6 +517,16 @@ class ReckoningTest : public SessionTest {
             EXPECT_EQ(release.get(), Release::Present);
         }
     }
+    // Another run of the master welcomes it.
+    v1::Welcome welcomeAs(std::uint64_t run, std::uint32_t look, std::uint32_t seed = 77) {
+        master_.run = run;
+        EXPECT_TRUE(master_.hear(v1::Envelope::kHello));
+        v1::Welcome welcome = deskWelcome();
+        welcome.mutable_look()->set_number(look);
+        welcome.mutable_look()->set_seed(seed);
+        master_.say(test::welcome(welcome));
+        return welcome;
+    }
     // Shows what comes next; its number.
     std::uint64_t shown() {
         const auto state = session_->nextFrame();
@@ -573,17 +583,37 @@ TEST_F(ReckoningTest, takesUpTheFramesOfTheSameRun) {
 
 TEST_F(ReckoningTest, joinsAnotherRunOfTheSameShowBesideItsFrames) {
     auto led = showingUntilLed();
-    master_.run = kRun + 7;
-    ASSERT_TRUE(master_.hear(v1::Envelope::kHello));
-    v1::Welcome same = deskWelcome();
-    same.mutable_look()->set_number(2);
-    master_.say(test::welcome(same));
+    welcomeAs(kRun + 7, 2);
     master_.letIn({1});
     EXPECT_EQ(led.wait_for(milliseconds(200)), std::future_status::timeout);
     master_.show(0, {}, 2);  // before the node was a member
     master_.show(1, {}, 2);
     EXPECT_EQ(led.get(), 1U);
     EXPECT_EQ(session_->renumbered(), 2U);
+}
+
+TEST_F(ReckoningTest, goesOnWhereTheNextMasterDiesBeforeItLeads) {
+    auto led = showingUntilLed();
+    welcomeAs(kRun + 7, 2);
+    master_.letIn({1});
+    welcomeAs(kRun + 9, 3);
+    master_.letIn({5});
+    master_.show(5, {}, 3);
+    EXPECT_EQ(led.get(), 5U);
+    EXPECT_EQ(session_->renumbered(), 3U);
+}
+
+TEST_F(ReckoningTest, isToldWhyAnotherMasterRefusesIt) {
+    auto led = showingUntilLed();
+    master_.run = kRun + 7;
+    ASSERT_TRUE(master_.hear(v1::Envelope::kHello));
+    master_.say(test::refusal("another protocol"));
+    EXPECT_FALSE(led.get());
+    EXPECT_EQ(session_->interruption(), Release::Rejoin);
+    auto join = joining();
+    ASSERT_TRUE(master_.hear(v1::Envelope::kHello));
+    master_.say(test::refusal("another protocol"));
+    EXPECT_THAT(errorOf(std::move(join)), testing::HasSubstr("another protocol"));
 }
 
 TEST_F(ReckoningTest, goesOnAtOnceWhereTheMasterHandsOver) {
@@ -597,11 +627,7 @@ TEST_F(ReckoningTest, goesOnAtOnceWhereTheMasterHandsOver) {
 
 TEST_F(ReckoningTest, joinsAnewWhereSomethingElseIsShown) {
     auto led = showingUntilLed();
-    master_.run = kRun + 7;
-    ASSERT_TRUE(master_.hear(v1::Envelope::kHello));
-    v1::Welcome other = deskWelcome();
-    other.mutable_look()->set_seed(99);
-    master_.say(test::welcome(other));
+    const v1::Welcome other = welcomeAs(kRun + 7, 1, 99);
     EXPECT_FALSE(led.get());
     EXPECT_EQ(session_->interruption(), Release::Rejoin);
     auto join = joining();
