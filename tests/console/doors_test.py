@@ -375,7 +375,8 @@ class Doors(unittest.TestCase):
         self.assertEqual(known(self.drawings(lambda listed: known(listed) == wanted, 60)), wanted)
         path = f"/drawing/{waits}.png"
         self.assertEqual(self.desk.request("GET", path, **self.bearer(self.watcher))[0], 200)
-        self.assertRegex("\n".join(self.events()), r"(?m)^wall: the world goes on from 0:\d\d:\d\d, away for \d+ s$")
+        goes_on = r"(?m)^wall: the world goes on from 0:\d\d:\d\d, away for \d+ s$"
+        wait_until(lambda: re.search(goes_on, "\n".join(self.events())), 20, "the console says that the world goes on")
 
     def events(self):
         client = Socket(self.desk, Cookie=self.cookie)
