@@ -362,6 +362,13 @@ Digest digestIn(const std::string& bytes) {
     return digest;
 }
 
+v1::Envelope chunkRequest(const Digest& blob, std::uint64_t offset) {
+    v1::Envelope message;
+    message.mutable_blob_request()->set_digest(bytesOf(blob));
+    message.mutable_blob_request()->set_offset(offset);
+    return message;
+}
+
 std::uint64_t calibrationOf(const std::string& rigText, const v1::Look& look) {
     if (look.rig_files().empty()) return shortHash(digestOf(rigText));
     std::string all = toHex(digestOf(rigText));

@@ -92,6 +92,8 @@ void writeScanPattern(const config::ScanPattern& pattern, v1::ScanPattern& messa
 // A digest as the bytes of a field, and back; the bytes are 32, as decode() has checked.
 [[nodiscard]] std::string bytesOf(const Digest& digest);
 [[nodiscard]] Digest digestIn(const std::string& bytes);
+// Asks for the part of a blob that starts at `offset`.
+[[nodiscard]] v1::Envelope chunkRequest(const Digest& blob, std::uint64_t offset);
 
 // Names what a node's geometry follows from: the rig's text and the files that it names.
 [[nodiscard]] std::uint64_t calibrationOf(const std::string& rigText, const v1::Look& look);

@@ -157,13 +157,16 @@ ShowReport Conductor::run() {
 }
 
 void Conductor::feedStandby(net::Moment now) {
+    drawings_.awaitCopy(standby_.lacks(drawings_.kept()));
     if (!standby_.isThere()) return;
     if (standby_.takesBeginning() && !simulationThread_->betweenTicks([](Simulation& simulation) {
             simulation.beginFollowed();
         }))
         standby_.beginAgain();
     const ShowControl& control = orders_.control();
-    standby_.turn(*simulation_, {looks_.sceneName(), control.wanted(), control.kept()}, now);
+    standby_.turn(*simulation_,
+                  {looks_.sceneName(), control.wanted(), control.kept(), drawings_.kept()},
+                  now);
 }
 
 void Conductor::nameMissing(net::Moment now) {

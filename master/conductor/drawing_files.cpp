@@ -28,28 +28,6 @@ fs::path pictureIn(const fs::path& folder, std::uint32_t number) {
     return folder / (std::to_string(number) + ".png");
 }
 
-KeptEntry entryOf(const v1::KeptDrawing& in, const fs::path& folder) {
-    return {.number = in.number(),
-            .species = in.species(),
-            .isLetIn = in.verdict() == v1::KeptDrawing::LET_IN,
-            .isKept = in.kept(),
-            .aside = in.aside(),
-            .offeredAt = in.offered_at(),
-            .request = in.request(),
-            .skin = std::make_shared<const std::vector<std::byte>>(
-                readWhole(pictureIn(folder, in.number()), wire::kMostSkinBytes))};
-}
-
-void write(const KeptEntry& entry, v1::KeptDrawing& out) {
-    out.set_number(entry.number);
-    out.set_species(entry.species);
-    out.set_verdict(entry.isLetIn ? v1::KeptDrawing::LET_IN : v1::KeptDrawing::WAITING);
-    if (entry.isKept) out.set_kept(true);
-    out.set_aside(entry.aside);
-    out.set_offered_at(entry.offeredAt);
-    out.set_request(entry.request);
-}
-
 // Pictures first: the list never names one that is not there.
 void writeAll(const fs::path& folder,
               std::uint32_t lastNumber,
@@ -62,7 +40,7 @@ void writeAll(const fs::path& folder,
         const fs::path picture = pictureIn(folder, entry.number);
         named.insert(picture);
         if (!fs::exists(picture)) writePrivate(picture, *entry.skin);
-        write(entry, *list.add_drawings());
+        *list.add_drawings() = listed(entry);
     }
     wire::keepDrawings(listIn(folder), std::move(list));
     std::error_code none;
@@ -72,6 +50,29 @@ void writeAll(const fs::path& folder,
 }
 
 }  // namespace
+
+v1::KeptDrawing listed(const KeptEntry& entry) {
+    v1::KeptDrawing listed;
+    listed.set_number(entry.number);
+    listed.set_species(entry.species);
+    listed.set_verdict(entry.isLetIn ? v1::KeptDrawing::LET_IN : v1::KeptDrawing::WAITING);
+    if (entry.isKept) listed.set_kept(true);
+    listed.set_aside(entry.aside);
+    listed.set_offered_at(entry.offeredAt);
+    listed.set_request(entry.request);
+    return listed;
+}
+
+KeptEntry entryOf(const v1::KeptDrawing& listed, net::Blob skin) {
+    return {.number = listed.number(),
+            .species = listed.species(),
+            .isLetIn = listed.verdict() == v1::KeptDrawing::LET_IN,
+            .isKept = listed.kept(),
+            .aside = listed.aside(),
+            .offeredAt = listed.offered_at(),
+            .request = listed.request(),
+            .skin = std::move(skin)};
+}
 
 DrawingFiles::DrawingFiles(fs::path folder) : folder_{std::move(folder)} {}
 
@@ -94,7 +95,10 @@ FoundDrawings DrawingFiles::read() const {
     found.lastNumber = list.last_number();
     for (const v1::KeptDrawing& drawing : list.drawings()) {
         try {
-            found.drawings.push_back(entryOf(drawing, folder_));
+            const fs::path picture = pictureIn(folder_, drawing.number());
+            found.drawings.push_back(entryOf(drawing,
+                                             std::make_shared<const std::vector<std::byte>>(
+                                                 readWhole(picture, wire::kMostSkinBytes))));
         } catch (const Error& problem) {
             logWarning("{}; drawing {} is left out", problem.what(), drawing.number());
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Visitors' drawings on the master's disk: a list, and a PNG for each.
+// Visitors' drawings on the disk of the master, and of a standby: a list, and a PNG for each.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/net/blob.h"
+#include "common/wire/kept_drawings.h"
 
 namespace aquarama::conductor {
 
@@ -25,13 +26,17 @@ struct KeptEntry {
     net::Blob skin;               // PNG
 };
 
+// As a list names it, without its skin.
+[[nodiscard]] v1::KeptDrawing listed(const KeptEntry& entry);
+[[nodiscard]] KeptEntry entryOf(const v1::KeptDrawing& listed, net::Blob skin);
+
 // What a master finds when it starts.
 struct FoundDrawings {
     std::uint32_t lastNumber = 0;
     std::vector<KeptEntry> drawings;
 };
 
-// Of the conductor's thread; it writes on another one, so that a slow disk delays no frame.
+// Of one thread; it writes on another one, so that a slow disk delays no frame.
 class DrawingFiles {
   public:
     // Empty folder: nothing is kept.

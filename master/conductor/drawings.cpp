@@ -19,7 +19,6 @@ constexpr net::Duration kUntilAway = std::chrono::seconds(1);
 // What is not kept goes after so long, also where nobody closes the day.
 constexpr std::uint64_t kDaySeconds = 20 * 3600;
 constexpr std::size_t kMostRetired = 32;
-constexpr std::size_t kMostRequests = 512;
 
 ask::Answer refused(std::string why) {
     return {ask::Outcome::Refused, std::move(why)};
@@ -93,7 +92,7 @@ ask::Answer Drawings::offer(std::uint64_t request,
                             const v1::OfferedDrawing& offered,
                             std::uint64_t unixSeconds,
                             std::uint32_t& number) {
-    if (const Taken* const known = taken(request)) {
+    if (const TakenRequest* const known = requests_.find(request)) {
         number = known->number;
         return answerOf(*known);
     }
@@ -115,20 +114,13 @@ ask::Answer Drawings::offer(std::uint64_t request,
     return answerOf(take(request, number));
 }
 
-const Drawings::Taken* Drawings::taken(std::uint64_t request) const {
-    const auto known = std::ranges::find(requests_, request, &Taken::request);
-    return known == requests_.end() ? nullptr : &*known;
+const TakenRequest& Drawings::take(std::uint64_t request, std::uint32_t number) {
+    return requests_.add({request, number, state_, net::monotonicNow()});
 }
 
-const Drawings::Taken& Drawings::take(std::uint64_t request, std::uint32_t number) {
-    if (requests_.size() == kMostRequests) requests_.pop_front();
-    return requests_.emplace_back(Taken{request, number, state_});
-}
-
-ask::Answer Drawings::answerOf(const Taken& taken) {
+ask::Answer Drawings::answerOf(const TakenRequest& taken) {
     files_.turn();
-    if (files_.isKept(taken.state)) return {};
-    return {ask::Outcome::Waiting, "the drawings are being written"};
+    return requests_.answerOf(taken, files_.isKept(taken.state));
 }
 
 void Drawings::decideOne(Entry& entry, const v1::Moderation& moderation) {
@@ -153,7 +145,7 @@ void Drawings::decideOne(Entry& entry, const v1::Moderation& moderation) {
 ask::Answer Drawings::decide(const std::string& user,
                              std::uint64_t request,
                              const v1::Moderation& moderation) {
-    if (const Taken* const known = taken(request)) return answerOf(*known);
+    if (const TakenRequest* const known = requests_.find(request)) return answerOf(*known);
     if (!rules_) return refused("the rig has no drawings; give it a block drawings { }");
     if (moderation.number() == 0) {
         for (Entry& entry : entries_) decideOne(entry, moderation);
@@ -347,18 +339,33 @@ v1::DrawingsReply Drawings::reply(const v1::DrawingsRequest& request) const {
 
 net::Blob Drawings::blob(const Digest& digest) const {
     if (const auto known = blobs_.find(digest); known != blobs_.end()) return known->second;
+    if (digest == kept_.digest) return kept_.list;
     const auto retired =
         std::ranges::find(retired_, digest, &decltype(retired_)::value_type::first);
-    return retired == retired_.end() ? nullptr : retired->second;
+    if (retired != retired_.end()) return retired->second;
+    const auto entry = std::ranges::find(entries_, digest, &Entry::picture);
+    return entry == entries_.end() ? nullptr : entry->kept.skin;
 }
 
 void Drawings::changed() {
     ++version_;
     tellSkins();
+    keep();
+}
+
+void Drawings::keep() {
     std::vector<KeptEntry> kept;
-    for (const Entry& entry : entries_)
-        if (!entry.isForgotten) kept.push_back(entry.kept);
+    v1::KeptDrawings list;
+    list.set_last_number(lastNumber_);
+    for (const Entry& entry : entries_) {
+        if (entry.isForgotten) continue;
+        kept.push_back(entry.kept);
+        v1::KeptDrawing& one = *list.add_drawings() = listed(entry.kept);
+        one.set_picture(wire::bytesOf(entry.picture));
+    }
     state_ = files_.keep(lastNumber_, std::move(kept));
+    kept_.list = blobOf(list.SerializeAsString());
+    kept_.digest = digestOf(*kept_.list);
 }
 
 // Lists the skins that are worn or will be soon.

@@ -23,6 +23,7 @@
 #include "common/wire/messages.h"
 #include "master/conductor/drawing_files.h"
 #include "master/conductor/simulation.h"
+#include "master/conductor/taken_requests.h"
 #include "master/world/events.h"
 
 namespace aquarama::conductor {
@@ -65,8 +66,16 @@ class Drawings {
     [[nodiscard]] v1::DrawingsReply reply(const v1::DrawingsRequest& request) const;
     // Of the blob that names all skins, as frames carry it; nothing where there are none.
     [[nodiscard]] const std::optional<Digest>& skins() const { return list_; }
+    // Of the blob that lists all drawings and names their skins, for a standby; nothing without
+    // rules.
+    [[nodiscard]] std::optional<Digest> kept() const {
+        return rules_ ? std::optional(kept_.digest) : std::nullopt;
+    }
     // Null where it is none of a drawing.
     [[nodiscard]] net::Blob blob(const Digest& digest) const;
+    // Whether a standby has yet to write what was taken: answers wait for that as well, for some
+    // seconds at most.
+    void awaitCopy(bool isAwaited) { requests_.awaitCopy(isAwaited); }
 
   private:
     // A drawing, and how far it has come.
@@ -92,15 +101,8 @@ class Drawings {
     // Those that were let in and have no fish yet, the first of them.
     [[nodiscard]] std::vector<Entry*> nextToEnter();
     void decideOne(Entry& entry, const v1::Moderation& moderation);
-    // Answers of requests that were taken.
-    struct Taken {
-        std::uint64_t request;
-        std::uint32_t number;  // of a drawing that was offered
-        std::uint64_t state;   // of the files, that has it
-    };
-    [[nodiscard]] const Taken* taken(std::uint64_t request) const;
-    [[nodiscard]] ask::Answer answerOf(const Taken& taken);
-    const Taken& take(std::uint64_t request, std::uint32_t number);
+    [[nodiscard]] ask::Answer answerOf(const TakenRequest& taken);
+    const TakenRequest& take(std::uint64_t request, std::uint32_t number);
     [[nodiscard]] v1::DrawingStatus statusOf(const Entry& entry) const;
     [[nodiscard]] std::string objectionTo(const v1::OfferedDrawing& offered) const;
     [[nodiscard]] v1::DrawingStatus::Condition conditionOf(const Entry& entry) const;
@@ -122,6 +124,7 @@ class Drawings {
     // Tells whoever looks, and keeps it.
     void changed();
     void tellSkins();
+    void keep();
     void replaceBlobs(std::map<Digest, net::Blob> blobs);
 
     std::optional<config::DrawingRules> rules_;
@@ -133,7 +136,11 @@ class Drawings {
     std::vector<std::uint32_t> toLeave_;    // fish that are told at the next turn
     std::deque<world::WorldInput> inputs_;  // that the world has not taken yet
     std::uint64_t state_ = 0;               // of the files
-    std::deque<Taken> requests_;            // the newest last
+    struct {
+        Digest digest;
+        net::Blob list;
+    } kept_;  // for a standby
+    TakenRequests requests_;
     std::optional<Digest> list_;
     std::map<Digest, net::Blob> blobs_;
     std::deque<std::pair<Digest, net::Blob>> retired_;  // still asked for by slow nodes

@@ -62,6 +62,9 @@ void Conductor::take(const net::FromPeer& from, const v1::Envelope& message, net
             return obey(from, message.order(), now);
         case v1::Envelope::kFollow:
             return standby_.hear(from.peer, message.follow(), now);
+        case v1::Envelope::kBlobRequest:
+            if (!standby_.is(from.peer)) break;
+            return giveChunk(from.peer, message.blob_request());
         case v1::Envelope::kPacketPart:
             return takePart(from, message.packet_part(), now);
         case v1::Envelope::kInput:
@@ -293,6 +296,9 @@ v1::OrderReply Conductor::changeMaster(const std::string& user, const v1::Order&
     } else if (standby_.inStep().empty()) {
         reply.set_outcome(v1::OrderReply::WAITING);
         reply.set_reason(wanted + " catches up with the world first");
+    } else if (standby_.lacks(drawings_.kept())) {
+        reply.set_outcome(v1::OrderReply::WAITING);
+        reply.set_reason(wanted + " fetches the drawings first");
     } else {
         logInfo("{} makes {} the master", user, wanted);
         reply.set_outcome(v1::OrderReply::WAITING);

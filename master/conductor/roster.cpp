@@ -84,7 +84,7 @@ bool maySay(const User& user, const v1::Envelope& message) {
             return isQuestion(message) || message.message_case() == v1::Envelope::kInput ||
                    message.message_case() == v1::Envelope::kOrder || message.has_packet_part();
         case config::KeyRole::Standby:
-            return message.has_follow();
+            return message.has_follow() || message.has_blob_request();
         case config::KeyRole::Master:
             break;
     }

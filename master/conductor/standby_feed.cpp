@@ -24,7 +24,7 @@ constexpr std::uint64_t kMostUnderWay = 32;
 
 bool areSame(const FollowedShow& one, const FollowedShow& other) {
     return one.scene == other.scene && wire::areSame(one.wanted, other.wanted) &&
-           wire::areSame(one.kept, other.kept);
+           wire::areSame(one.kept, other.kept) && one.drawings == other.drawings;
 }
 
 }  // namespace
@@ -62,14 +62,15 @@ void StandbyFeed::hear(const net::PeerId& peer, const v1::Follow& follow, net::M
         return refuse(peer, follow, objection);
     if (!peer_.empty() && follow.machine() != machine_)
         return refuse(peer, follow, machine_ + " stands by already");
-    const bool knowsStream = peer == peer_ && follow.stream() == stream_;
+    const bool isAnswered = peer == peer_ && follow.request() == request_;
     peer_ = peer;
     machine_ = follow.machine();
+    request_ = follow.request();
     lastHeard_ = now;
-    if (knowsStream)
-        note(follow);
-    else if (!awaitsBeginning_ || follow.stream() != 0)  // while it is made, there is none
+    if (!isAnswered)
         beginAgain();
+    else if (follow.stream() == stream_)  // else its beginning is on the way
+        note(follow);
 }
 
 v1::StandbyStatus StandbyFeed::status(const std::string& machine, net::Moment now) const {
@@ -82,6 +83,8 @@ v1::StandbyStatus StandbyFeed::status(const std::string& machine, net::Moment no
 
 void StandbyFeed::note(const v1::Follow& follow) {
     taken_ = std::clamp(follow.taken(), taken_, sentParts_);
+    drawings_.reset();
+    if (follow.has_drawings()) drawings_ = wire::digestIn(follow.drawings());
     if (!std::exchange(isInStep_, follow.in_step()) && isInStep_)
         logInfo("{} stands by: it simulates along", machine_);
 }
@@ -163,6 +166,7 @@ void StandbyFeed::writeShow(const FollowedShow& show, v1::Journalled& part) {
     part.set_scene(show.scene);
     *part.mutable_wanted() = show.wanted;
     *part.mutable_kept() = show.kept;
+    if (show.drawings) part.set_drawings(wire::bytesOf(*show.drawings));
 }
 
 void StandbyFeed::sayFarewell() {

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "common/base/digest.h"
 #include "common/config/rig.h"
 #include "common/net/channels.h"
 #include "common/net/clock.h"
@@ -23,6 +24,7 @@ namespace aquarama::conductor {
 struct FollowedShow {
     std::string scene;  // name
     v1::WantedShow wanted, kept;
+    std::optional<Digest> drawings;  // list of them, Drawings::kept(); nothing: the rig has none
 };
 
 // Of the conductor's thread. One standby at a time: the one that is named in the rig, or the former
@@ -49,6 +51,12 @@ class StandbyFeed {
     [[nodiscard]] std::string machine() const { return isThere() ? machine_ : ""; }
     // The same, where it simulates along; empty: it does not, or is behind.
     [[nodiscard]] std::string inStep() const { return isInStep_ ? machine_ : ""; }
+    // Whether it is this peer that stands by.
+    [[nodiscard]] bool is(const net::PeerId& peer) const { return isThere() && peer == peer_; }
+    // Whether a machine simulates along whose disk has yet to get these drawings.
+    [[nodiscard]] bool lacks(const std::optional<Digest>& drawings) const {
+        return isInStep_ && drawings && drawings != drawings_;
+    }
     // For operators; `machine`: the one that is the master.
     [[nodiscard]] v1::StandbyStatus status(const std::string& machine, net::Moment now) const;
     // It is to be the master. True once.
@@ -74,9 +82,11 @@ class StandbyFeed {
     net::PeerId peer_;  // empty: none
     std::string machine_;
     bool isInStep_ = false, isPromoted_ = false, mustBegin_ = false, awaitsBeginning_ = false;
+    std::uint64_t request_ = 0;  // of the standby, that was answered
     std::uint64_t stream_, nextPart_ = 0, sentParts_ = 0, taken_ = 0;
     std::deque<v1::Envelope> parts_;  // that wait
     std::optional<FollowedShow> told_;
+    std::optional<Digest> drawings_;  // that it has
     Tick tick_;
     net::Moment lastHeard_{}, lastSent_{}, begun_ = net::monotonicNow();
     std::set<std::string> objections_;

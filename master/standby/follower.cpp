@@ -34,16 +34,22 @@ constexpr net::Duration kLongPause = std::chrono::minutes(1);
 Follower::Follower(FollowerOptions options)
     : options_{std::move(options)},
       channels_{options_.connect()},
+      drawings_{options_.drawings,
+                [this](v1::Envelope message) {
+                    channels_->sendControl(wire::encode(0, std::move(message)));
+                }},
       lastHeard_{net::monotonicNow()} {}
 
 void Follower::turn() {
     const net::Moment now = net::monotonicNow();
-    if (now - lastFollow_ >= kBetweenFollows || nextPart_ - saidParts_ >= kMostUnsaid) follow(now);
+    if (now - lastFollow_ >= kBetweenFollows || parts_.taken() - saidParts_ >= kMostUnsaid)
+        follow(now);
     if (now - lastHeard_ > kSilence) {
         channels_ = options_.connect();
         lastHeard_ = now;
     }
     hear();
+    drawings_.turn(now);
     if (world_) advance(kMostTicksATurn);
 }
 
@@ -57,8 +63,8 @@ void Follower::hear() {
 void Follower::follow(net::Moment now) {
     static const std::uint64_t ownHash = motion::motorSelfTest();
     const bool isInStep =
-        hasWorld() && stream_ != 0 && known_.value - tick().value < kMostTicksBehind;
-    if (isInStep && !std::exchange(wasInStep_, true))
+        hasWorld() && parts_.stream() != 0 && known_.value - tick().value < kMostTicksBehind;
+    if (isInStep && std::exchange(saidInStep_, parts_.stream()) != parts_.stream())
         logInfo("{} simulates along with the master, at {}", options_.machine, timeOf(tick()));
     v1::Envelope message;
     v1::Follow& follow = *message.mutable_follow();
@@ -66,11 +72,13 @@ void Follower::follow(net::Moment now) {
     follow.set_major(wire::kProtocolMajor);
     follow.set_build(AQUARAMA_VERSION);
     follow.set_motor_hash(ownHash);
-    follow.set_stream(stream_);
-    follow.set_taken(nextPart_);
+    follow.set_stream(parts_.stream());
+    follow.set_request(parts_.request());
+    follow.set_taken(parts_.taken());
     follow.set_in_step(isInStep);
+    if (const auto& list = drawings_.kept()) follow.set_drawings(wire::bytesOf(*list));
     channels_->sendControl(wire::encode(0, std::move(message)));
-    saidParts_ = nextPart_;
+    saidParts_ = parts_.taken();
     lastFollow_ = now;
 }
 
@@ -80,9 +88,10 @@ void Follower::read(const v1::Envelope& message) {
     if (message.has_journalled()) {
         take(message.journalled());
         // Of a master whose world is not here whole it is not the lease yet.
-        if (stream_ != 0 && buffer_.empty()) lease_ = message.lease_revision();
+        if (parts_.stream() != 0 && !parts_.goesOn()) lease_ = message.lease_revision();
         return;
     }
+    if (message.has_blob_chunk()) drawings_.take(message.blob_chunk());
     if (message.has_refusal() && refusal_ != message.refusal().reason()) {
         refusal_ = message.refusal().reason();
         logError("the master refuses the standby {}: {}", options_.machine, refusal_);
@@ -93,34 +102,24 @@ void Follower::read(const v1::Envelope& message) {
     }
 }
 
-void Follower::askAnew() {
-    stream_ = 0;
-    nextPart_ = saidParts_ = 0;
-    buffer_.clear();
-    wasInStep_ = false;
+void Follower::take(const v1::Journalled& part) {
+    if (!parts_.take(part)) return;
+    if (part.has_scene()) takeShow(part);
+    if (const auto piece = parts_.takePiece()) takePiece(*piece, Tick{part.tick()});
 }
 
-// Parts come in their order, or one was lost.
-void Follower::take(const v1::Journalled& part) {
-    if (part.stream() != stream_) {
-        if (part.part() != 0) return;
-        askAnew();
-        stream_ = part.stream();
-    }
-    const bool isBounded = buffer_.size() + part.entries().size() <= 2 * wire::kMostSavedBytes;
-    if (part.part() != nextPart_ || !isBounded) return askAnew();
-    ++nextPart_;
-    const auto* const bytes = reinterpret_cast<const std::byte*>(part.entries().data());
-    buffer_.insert(buffer_.end(), bytes, bytes + part.entries().size());
-    if (part.has_scene()) show_ = {part.scene(), part.wanted(), part.kept()};
-    if (!part.goes_on()) takePiece(std::exchange(buffer_, {}), Tick{part.tick()});
+void Follower::takeShow(const v1::Journalled& part) {
+    show_ = {part.scene(), part.wanted(), part.kept(), {}};
+    if (!part.has_drawings()) return;
+    show_.drawings = wire::digestIn(part.drawings());
+    if (!options_.drawings.empty()) drawings_.want(*show_.drawings);
 }
 
 void Follower::takePiece(const wire::Packet& piece, Tick tick) {
     if (wire::isRecording(piece))
         tryToBegin(piece);
     else if (world_ && !goOn(piece))
-        return askAnew();
+        return parts_.askAnew();
     known_ = tick;
     clock_.add(known_, net::monotonicNow());
 }
@@ -132,7 +131,7 @@ void Follower::tryToBegin(const wire::Packet& piece) {
     } catch (const Error& error) {
         if (std::exchange(problem_, error.what()) != error.what())
             logError("{} does not stand by: {}", options_.machine, problem_);
-        askAnew();
+        parts_.askAnew();
         lastFollow_ = net::monotonicNow() + kPause;
     }
 }
@@ -140,7 +139,7 @@ void Follower::tryToBegin(const wire::Packet& piece) {
 // Its own journal begins another recording.
 void Follower::begin(const wire::Packet& piece) {
     const wire::Recording sent = wire::decodeRecording(piece, "the master's world");
-    if (sent.saves.size() != 1) return askAnew();
+    if (sent.saves.size() != 1) return parts_.askAnew();
     world_.reset();
     if (sent.assets.cast.empty()) throw Error("the master's world has no species");
     const wire::SpeciesAssets& school = sent.assets.cast.front();
@@ -203,7 +202,7 @@ void Follower::compare() {
             "machine's memory; it takes the master's next save",
             options_.machine,
             expected.tick.value);
-        askAnew();
+        parts_.askAnew();
         // A machine that is always wrong is not sent one save after the other.
         const net::Moment now = net::monotonicNow();
         if (now - std::exchange(lastDiffered_, now) < kLongPause) lastFollow_ = now + kLongPause;

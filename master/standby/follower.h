@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A standby simulates along with the master: it gets all that the master's journal gets, and keeps
-// a journal of its own. It takes over with the world that it has.
+// a journal of its own, and the drawings. It takes over with the world that it has.
 #pragma once
 
 #include <chrono>
@@ -22,6 +22,8 @@
 #include "master/journal/journalled_world.h"
 #include "master/simulation/living_world.h"
 #include "master/standby/followed_clock.h"
+#include "master/standby/followed_drawings.h"
+#include "master/standby/parts.h"
 
 namespace aquarama::standby {
 
@@ -35,9 +37,10 @@ struct WantedWorld {
 
 // What a standby is, and where it has things from.
 struct FollowerOptions {
-    std::string machine;            // its own name
-    net::Connect connect;           // to the master
-    std::filesystem::path journal;  // folder of its own journal
+    std::string machine;             // its own name
+    net::Connect connect;            // to the master
+    std::filesystem::path journal;   // folder of its own journal
+    std::filesystem::path drawings;  // folder of its own copy; empty: the rig has none
     // The files of this machine for such a world.
     std::function<simulation::Assets(const WantedWorld&)> assets;
 };
@@ -72,6 +75,7 @@ class Follower {
     void hear();
     void read(const v1::Envelope& message);
     void take(const v1::Journalled& part);
+    void takeShow(const v1::Journalled& part);
     void takePiece(const wire::Packet& piece, Tick tick);
     void tryToBegin(const wire::Packet& piece);
     // Throws Error where this machine's files are not the master's.
@@ -80,22 +84,22 @@ class Follower {
     [[nodiscard]] bool goOn(const wire::Packet& entries);
     void advance(std::size_t mostTicks);
     void compare();
-    // Asks for a stream from a save on.
-    void askAnew();
 
     FollowerOptions options_;
     std::unique_ptr<net::NodeChannels> channels_;
+    FollowedDrawings drawings_;
     std::unique_ptr<journal::JournalledWorld> world_;
     std::optional<simulation::Assets> assets_;  // of the world
     WantedWorld assetsOf_;
     conductor::FollowedShow show_;
     wire::Packet beginning_;  // of the stream's recording, without its save
-    wire::Packet buffer_;     // of a piece that goes on
     std::deque<wire::RecordedHash> expected_;
-    std::uint64_t stream_ = 0, nextPart_ = 0, saidParts_ = 0, lease_ = 0;
-    Tick known_;  // up to it all inputs are known
+    Parts parts_;
+    std::uint64_t saidParts_ = 0, lease_ = 0;
+    std::uint64_t saidInStep_ = 0;  // the stream
+    Tick known_;                    // up to it all inputs are known
     FollowedClock clock_;
-    bool isOver_ = false, wasInStep_ = false;
+    bool isOver_ = false;
     std::string refusal_, problem_;  // that were logged
     net::Moment lastFollow_{}, lastHeard_, lastDiffered_{};
 };

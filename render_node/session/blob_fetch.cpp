@@ -91,10 +91,7 @@ std::optional<Digest> BlobFetch::firstMissing() const {
 
 void BlobFetch::requestChunk() {
     assert(assembly_);
-    v1::Envelope message;
-    message.mutable_blob_request()->set_digest(wire::bytesOf(assembly_->digest()));
-    message.mutable_blob_request()->set_offset(assembly_->nextOffset());
-    say_(std::move(message));
+    say_(wire::chunkRequest(assembly_->digest(), assembly_->nextOffset()));
     lastRequest_ = net::monotonicNow();
 }
 

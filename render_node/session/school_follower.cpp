@@ -99,13 +99,9 @@ void SchoolFollower::take(const v1::BlobChunk& chunk) {
 void SchoolFollower::turn(net::Moment now) {
     if (!isMissing_ || motion_ == nullptr || now - lastAsked_ < kBetweenRequests) return;
     lastAsked_ = now;
+    if (assembly_) return say_(wire::chunkRequest(assembly_->digest(), assembly_->nextOffset()));
     v1::Envelope message;
-    if (assembly_) {
-        message.mutable_blob_request()->set_digest(wire::bytesOf(assembly_->digest()));
-        message.mutable_blob_request()->set_offset(assembly_->nextOffset());
-    } else {
-        message.mutable_keyframe_request();
-    }
+    message.mutable_keyframe_request();
     say_(std::move(message));
 }
 

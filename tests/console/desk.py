@@ -11,13 +11,12 @@ import struct
 import subprocess
 import sys
 import time
-import zlib
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "end_to_end"))
 
 from show import (BIN, ROOT, aquarama, children_of, control_address, end, give_colours,  # noqa: E402,F401
-                  rig_on_free_ports, start, temporary_folder, wait_until)
+                  rig_on_free_ports, skin_png, start, temporary_folder, wait_until)
 
 
 def free_udp_port():
@@ -233,15 +232,6 @@ class Socket:
         ended = self.hear_until(lambda m: isinstance(m, dict) and m.get("done", {}).get("request") == identity
                                 and m["done"]["outcome"] != "WAITING")
         return {**ended["done"], "outcome": ended["done"]["outcome"].lower()}
-
-
-def skin_png(red, green, blue):
-    """A skin as a drawing has it (common/body/side_view.h), all of one colour."""
-    def chunk(kind, content):
-        return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
-    row = b"\0" + bytes((red, green, blue, 255)) * 1024
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 1024, 512, 8, 6, 0, 0, 0))
-            + chunk(b"IDAT", zlib.compress(row * 512)) + chunk(b"IEND", b""))
 
 
 def command_of(**what):

@@ -5,11 +5,13 @@ import os
 import re
 import signal
 import socket
+import struct
 import subprocess
 import tempfile
 import time
 import unittest
 import zipfile
+import zlib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -119,6 +121,15 @@ def wait_until(condition, seconds, what):
             return
         time.sleep(0.05)
     raise AssertionError(f"waited {seconds} s in vain for: {what}")
+
+
+def skin_png(red, green, blue):
+    """A skin as a drawing has it (common/body/side_view.h), all of one colour."""
+    def chunk(kind, content):
+        return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(kind + content))
+    row = b"\0" + bytes((red, green, blue, 255)) * 1024
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 1024, 512, 8, 6, 0, 0, 0))
+            + chunk(b"IDAT", zlib.compress(row * 512)) + chunk(b"IEND", b""))
 
 
 # Debian's libfaketime, for programs whose clock is wrong; empty where it is not there.

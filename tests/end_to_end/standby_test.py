@@ -14,7 +14,7 @@ import time
 import unittest
 from pathlib import Path
 
-from show import BIN, ROOT, aquarama, end, free_ports, lacks, rig_on_free_ports, temporary_folder, wait_until
+from show import BIN, ROOT, aquarama, end, free_ports, lacks, rig_on_free_ports, skin_png, temporary_folder, wait_until
 
 TAKEOVERS = int(os.environ.get("AQUARAMA_TAKEOVERS", "1"))
 INPUT, CHECKPOINT = 0x1A, 0x22  # first bytes of entries of a recording
@@ -82,7 +82,7 @@ class Machine:
         self.folder, self.name, self.rig, self.command = Path(folder) / name, name, rig, command
         self.folder.mkdir()
         self.log = self.folder / "log"
-        self.start()
+        self.drawings = self.folder / "aquarama/shows/desk.drawings"
 
     def start(self):
         environment = os.environ | {"XDG_STATE_HOME": str(self.folder)}
@@ -108,13 +108,25 @@ class Standby(unittest.TestCase):
         control, state = free_ports(2)
         with self.rig.open("a") as rig:
             rig.write(f'standby {{ machine: "spare" control: "tcp://127.0.0.1:{control}" '
-                      f'state: "tcp://127.0.0.1:{state}" etcd: "{self.etcd.url}" }}\n')
+                      f'state: "tcp://127.0.0.1:{state}" etcd: "{self.etcd.url}" }}\n'
+                      'drawings { species: "clownfish" }\n')
         self.main = Machine(self.folder.name, "main", ["master", "--pattern", "grid"], self.rig)
         self.spare = Machine(self.folder.name, "spare", ["standby"], self.rig)
+        self.main.drawings.mkdir(parents=True)
+        (self.main.drawings / "list.txtpb").write_text(
+            'last_number: 7 drawings { number: 7 species: "clownfish" verdict: LET_IN kept: true offered_at: 1 }')
+        (self.main.drawings / "7.png").write_bytes(skin_png(200, 120, 40))
+        self.main.start()
+        self.spare.start()
         self.addCleanup(self.end_machines)
 
     def end_machines(self):
         end([self.main.process, self.spare.process])
+
+    def has_the_drawing(self, machine):
+        kept = machine.drawings / "list.txtpb"
+        return (kept.exists() and "number: 7" in kept.read_text()
+                and (machine.drawings / "7.png").read_bytes() == skin_png(200, 120, 40))
 
     def start_node(self):
         first, = re.findall(r'control: "(tcp://[^"]+)"', self.rig.read_text())[:1]
@@ -188,10 +200,12 @@ class Standby(unittest.TestCase):
             status = aquarama("status", self.rig).stdout
             self.assertIn(f"{old.name} is the master", status)
             self.assertIn(f"{new.name} simulates along", status)
+            wait_until(lambda: self.has_the_drawing(new), 10, "the standby to have the drawing")
             what(old, new)
             followed[old] += 1
             machines.reverse()
         for machine in machines:
+            self.assertTrue(self.has_the_drawing(machine))
             self.assertNotIn("differs from the master's", machine.log.read_text())
 
 

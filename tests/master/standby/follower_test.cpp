@@ -14,8 +14,12 @@
 #include <unistd.h>
 
 #include "common/base/log.h"
+#include "common/motion/motor.h"
+#include "master/conductor/drawing_files.h"
+#include "master/conductor/drawings.h"
 #include "master/journal/journal.h"
 #include "tests/support/memory_channels.h"
+#include "tests/support/plain_skin.h"
 #include "tests/support/synthetic_assets.h"
 
 namespace aquarama::standby {
@@ -42,13 +46,18 @@ class Master {
         : channels_{net.master()},
           world_{journal::makeJournalled(journal, assetsOf(seed), journal::TimeAway::LeftOut)} {
         show_.wanted.set_black(true);
+        drawings_.enter({});
     }
 
     // Advances by a tick and sends what there is for the standby.
     void turn() {
         while (const auto from = channels_->receiveControl()) {
             const auto message = wire::decode(from->bytes);
-            ASSERT_TRUE(message && message->has_follow());
+            ASSERT_TRUE(message && (message->has_follow() || message->has_blob_request()));
+            if (message->has_blob_request()) {
+                giveChunk(from->peer, message->blob_request());
+                continue;
+            }
             asked_ = message->follow();
             peer_ = from->peer;
             feed_.hear(from->peer, message->follow(), net::monotonicNow());
@@ -56,8 +65,23 @@ class Master {
         if (feed_.takesBeginning()) world_->beginFollowed();
         visit();
         world_->advance();
+        show_.drawings = drawings_.kept();
         feed_.turn(*world_, show_, net::monotonicNow());
     }
+    // A drawing that a visitor has made; its number.
+    std::uint32_t draw(std::uint16_t grey) {
+        v1::OfferedDrawing offered;
+        offered.set_species("clownfish");
+        const auto skin = test::plainSkin(grey);
+        offered.set_skin(skin->data(), skin->size());
+        std::uint32_t number = 0;
+        EXPECT_NE(drawings_.offer(++requests_, offered, 1'800'000'000, number).outcome,
+                  ask::Outcome::Refused);
+        return number;
+    }
+    conductor::Drawings& drawings() { return drawings_; }
+    // Blobs are not sent any more as they are.
+    void spoilBlobs() { areSpoilt_ = true; }
     void say(v1::Envelope message) { sender_.say(peer_, std::move(message)); }
     // The next part of the stream that the standby has, with these entries.
     void sayEntries(const std::string& entries, std::uint64_t skipped = 0) {
@@ -72,6 +96,25 @@ class Master {
     [[nodiscard]] const v1::Follow& asked() const { return asked_; }
 
   private:
+    static config::DrawingRules rules() {
+        config::DrawingRules rules;
+        rules.species = {"clownfish"};
+        return rules;
+    }
+    void giveChunk(const net::PeerId& peer, const v1::BlobRequest& request) {
+        const net::Blob blob = drawings_.blob(wire::digestIn(request.digest()));
+        ASSERT_TRUE(blob);
+        constexpr std::size_t kSmall = 1000;  // several for a skin
+        const auto content = net::chunkAt(*blob, request.offset(), kSmall);
+        v1::Envelope message;
+        v1::BlobChunk& chunk = *message.mutable_blob_chunk();
+        chunk.set_digest(request.digest());
+        chunk.set_offset(request.offset());
+        chunk.set_total(blob->size());
+        chunk.set_content(content.data(), content.size());
+        if (areSpoilt_) chunk.mutable_content()->back() ^= 1;
+        sender_.say(peer, std::move(message));
+    }
     void visit() {
         const std::uint64_t tick = world_->tick().value;
         if (tick % 17 == 5) world_->apply(world::DropFood{.position = {0.1F, -5, -4}});
@@ -84,7 +127,10 @@ class Master {
                                   channels_->sendControl(peer, packet);
                               }};
     conductor::StandbyFeed feed_{true, sender_};
-    conductor::FollowedShow show_{.scene = "tank", .wanted = {}, .kept = {}};
+    conductor::FollowedShow show_{.scene = "tank", .wanted = {}, .kept = {}, .drawings = {}};
+    conductor::Drawings drawings_{rules(), {}};
+    std::uint64_t requests_ = 0;
+    bool areSpoilt_ = false;
     v1::Follow asked_;
     net::PeerId peer_;
 };
@@ -98,6 +144,7 @@ class FollowerTest : public testing::Test {
         return Follower({.machine = "spare",
                          .connect = [this] { return net_.node(); },
                          .journal = folder_ / "spare",
+                         .drawings = folder_ / "drawings",
                          .assets =
                              [this](const WantedWorld& wanted) {
                                  EXPECT_EQ(wanted.scene, "tank");
@@ -113,6 +160,16 @@ class FollowerTest : public testing::Test {
     bool getsInStep(Follower& follower) {
         for (int i = 0; i < 600 && master_.feed().inStep().empty(); ++i) turn(follower);
         return master_.feed().inStep() == "spare";
+    }
+    // Turns until the standby's disk has the drawings that the master has now.
+    bool hasDrawings(Follower& follower) {
+        for (int i = 0; i < 3000 && master_.feed().lacks(master_.drawings().kept()); ++i)
+            turn(follower);
+        return !master_.feed().lacks(master_.drawings().kept());
+    }
+    // What a master would find that starts on the standby's disk.
+    [[nodiscard]] conductor::FoundDrawings kept() const {
+        return conductor::DrawingFiles(folder_ / "drawings").read();
     }
     [[nodiscard]] std::size_t recordings() const {
         std::size_t count = 0;
@@ -207,6 +264,27 @@ TEST(StandbyFeed, refusesByNameWhereABuildIsAnother) {
     EXPECT_THAT(refused, HasSubstr("moves fish to other places"));
 }
 
+TEST(StandbyFeed, answersARequestOnceHoweverOftenItIsSaid) {
+    const conductor::Sender sender{7, [](const net::PeerId&, net::ByteView) {}};
+    conductor::StandbyFeed feed{true, sender};
+    v1::Follow follow;
+    follow.set_machine("spare");
+    follow.set_major(wire::kProtocolMajor);
+    follow.set_build(AQUARAMA_VERSION);
+    follow.set_motor_hash(motion::motorSelfTest());
+    const auto begins = [&](std::uint64_t request, const net::PeerId& peer = "peer") {
+        follow.set_request(request);
+        feed.hear(peer, follow, net::monotonicNow());
+        return feed.takesBeginning();
+    };
+    EXPECT_TRUE(begins(1));
+    EXPECT_FALSE(begins(1)) << "it was said before the answer came";
+    follow.set_stream(1);  // of before
+    EXPECT_FALSE(begins(1));
+    EXPECT_TRUE(begins(2));
+    EXPECT_TRUE(begins(2, "the same on a fresh connection"));
+}
+
 TEST_F(FollowerTest, doesNotStandByWithOtherFiles) {
     seedOfFiles_ = 2;
     Follower spare = follower();
@@ -222,6 +300,56 @@ TEST_F(FollowerTest, doesNotStandByWithOtherFiles) {
     const net::Moment end = net::monotonicNow() + std::chrono::seconds(60);
     while (!spare.hasWorld() && net::monotonicNow() < end) turn(spare);
     EXPECT_TRUE(spare.hasWorld()) << "it tries again after a pause";
+}
+
+TEST_F(FollowerTest, keepsTheDrawingsAsTheMasterHasThem) {
+    const std::uint32_t first = master_.draw(200);
+    Follower spare = follower();
+    ASSERT_TRUE(getsInStep(spare));
+    const std::uint32_t second = master_.draw(90);
+    ASSERT_TRUE(hasDrawings(spare));
+    conductor::FoundDrawings found = kept();
+    ASSERT_EQ(found.drawings.size(), 2U);
+    EXPECT_EQ(found.lastNumber, second);
+    EXPECT_EQ(found.drawings[0].number, first);
+    EXPECT_EQ(*found.drawings[0].skin, *test::plainSkin(200));
+    EXPECT_EQ(*found.drawings[1].skin, *test::plainSkin(90));
+    EXPECT_FALSE(found.drawings[1].isLetIn);
+
+    v1::Moderation decision;
+    decision.set_number(second);
+    decision.set_verdict(v1::Moderation::LET_IN);
+    static_cast<void>(master_.drawings().decide("the crew", 100, decision));
+    decision.set_number(first);
+    decision.set_verdict(v1::Moderation::TAKE_DOWN);
+    static_cast<void>(master_.drawings().decide("the crew", 101, decision));
+    EXPECT_TRUE(master_.feed().lacks(master_.drawings().kept())) << "it does not know yet";
+    ASSERT_TRUE(hasDrawings(spare));
+    found = kept();
+    ASSERT_EQ(found.drawings.size(), 1U);
+    EXPECT_TRUE(found.drawings[0].isLetIn);
+    EXPECT_FALSE(fs::exists(folder_ / "drawings" / (std::to_string(first) + ".png")));
+}
+
+TEST_F(FollowerTest, keepsTheDrawingsThatItHasWhereTheMastersCannotBeRead) {
+    Follower spare = follower();
+    master_.draw(200);
+    ASSERT_TRUE(getsInStep(spare));
+    ASSERT_TRUE(hasDrawings(spare));
+    std::string errors;
+    setLogListener([&](Severity severity, const std::string& line) {
+        if (severity == Severity::Error) errors += line + "\n";
+    });
+    master_.spoilBlobs();
+    master_.draw(90);
+    for (int i = 0; i < 300 && errors.empty(); ++i) turn(spare);
+    for (int i = 0; i < 50; ++i) turn(spare);
+    setLogListener({});
+    EXPECT_EQ(errors,
+              "the master's drawings cannot be read, and are not kept here; restart the master\n");
+    EXPECT_TRUE(master_.feed().lacks(master_.drawings().kept()));
+    EXPECT_EQ(kept().drawings.size(), 1U);
+    EXPECT_EQ(master_.feed().inStep(), "spare") << "the world is not held up by it";
 }
 
 TEST_F(FollowerTest, doesNotTakeOverAShowThatHasEnded) {

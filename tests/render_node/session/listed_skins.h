@@ -8,21 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "common/base/picture.h"
-#include "common/body/side_view.h"
 #include "common/net/blob.h"
 #include "common/net/channels.h"
 #include "common/wire/messages.h"
+#include "tests/support/plain_skin.h"
 
 namespace aquarama::test {
-
-// The PNG of a grey skin.
-inline net::Blob plainSkin(std::uint16_t code) {
-    const auto texels = static_cast<std::size_t>(body::kSideTexels.x * body::kSideTexels.y);
-    const PngPicture picture{.sizePixels = body::kSideTexels,
-                             .codes = std::vector<std::uint16_t>(3 * texels, code)};
-    return std::make_shared<const net::ByteVector>(encodePng(picture, PngMeaning::Srgb));
-}
 
 // Adds pictures, all of clownfish, and their list to what a master has. Returns the list's digest.
 inline Digest offerSkins(const std::vector<std::pair<std::uint32_t, net::Blob>>& pictures,
