@@ -31,7 +31,7 @@ std::string fileNameOf(const std::string& machine) {
 
 CsvWriter::CsvWriter(std::ostream& file, std::string machine)
     : file_{file}, machine_{std::move(machine)} {
-    file_ << "machine,benchmark,cpu_ns,counter,value\n";
+    file_ << kCsvHead << '\n';
 }
 
 void CsvWriter::time(const std::string& benchmark, double cpuNanoseconds) {

@@ -12,6 +12,9 @@ namespace aquarama::bench {
 // "Intel(R) Xeon(R) Processor" as a name for a file: intel-r-xeon-r-processor.
 [[nodiscard]] std::string fileNameOf(const std::string& machine);
 
+// The first line of a file of measurements.
+inline constexpr const char* kCsvHead = "machine,benchmark,cpu_ns,counter,value";
+
 // Writes the form of docs/measurements: a row for the time of a benchmark, one for each counter.
 class CsvWriter {
   public:

@@ -1,15 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs the benchmarks, writes them as CSV beside the machine's name, and prints the paper's
 // Table 1.
+//
+//     aquarama_bench [--against FILE] [Google Benchmark's arguments]
+//
+// With --against it prints the figures beside those of an earlier run on the same machine.
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
+#include "common/base/log.h"
+#include "tests/bench/against.h"
 #include "tests/bench/machine.h"
 #include "tests/bench/table1.h"
 
@@ -48,6 +57,20 @@ class KeepingReporter : public benchmark::ConsoleReporter {
     std::vector<Run> kept_;
 };
 
+// Takes "--against FILE" out of the arguments; empty: it is not there. Nothing where the file is
+// missing.
+std::optional<std::string> takeAgainst(int& count, char** arguments) {
+    char** const end = arguments + count;
+    char** const found = std::find_if(
+        arguments, end, [](const char* one) { return std::string(one) == "--against"; });
+    if (found == end) return "";
+    if (found + 1 == end) return std::nullopt;
+    std::string path = found[1];
+    std::copy(found + 2, end, found);
+    count -= 2;
+    return path;
+}
+
 void writeCsv(const std::vector<benchmark::BenchmarkReporter::Run>& runs,
               const std::vector<aquarama::bench::Table1Row>& table,
               const std::string& path) {
@@ -65,19 +88,36 @@ void writeCsv(const std::vector<benchmark::BenchmarkReporter::Run>& runs,
     std::printf("\nwritten: %s\n", path.c_str());
 }
 
+// The earlier run is read first: it may be the file that is written.
+void measure(const std::string& against) {
+    using namespace aquarama::bench;  // NOLINT(google-build-using-namespace)
+    const std::string machine = processorName();
+    Measurements before;
+    if (!against.empty()) before = readMeasurements(against, machine);
+    KeepingReporter reporter;
+    benchmark::RunSpecifiedBenchmarks(&reporter);
+    const std::vector<Table1Row> table = table1(reporter.kept());
+    const std::string path = "build/bench/" + fileNameOf(machine) + ".csv";
+    writeCsv(reporter.kept(), table, path);
+    print(table);
+    if (!against.empty()) print(compare(before, readMeasurements(path, machine)), std::cout);
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
+    const auto against = takeAgainst(count, arguments);
     benchmark::Initialize(&count, arguments);
-    if (benchmark::ReportUnrecognizedArguments(count, arguments)) return 1;
-    KeepingReporter reporter;
-    benchmark::RunSpecifiedBenchmarks(&reporter);
+    if (!against || benchmark::ReportUnrecognizedArguments(count, arguments)) {
+        if (!against) std::cerr << "aquarama_bench: --against needs a file of measurements\n";
+        return 1;
+    }
+    try {
+        measure(*against);
+    } catch (const aquarama::Error& error) {
+        std::cerr << "aquarama_bench: " << error.what() << '\n';
+        return 1;
+    }
     benchmark::Shutdown();
-    const std::vector<aquarama::bench::Table1Row> table = aquarama::bench::table1(reporter.kept());
-    writeCsv(
-        reporter.kept(),
-        table,
-        "build/bench/" + aquarama::bench::fileNameOf(aquarama::bench::processorName()) + ".csv");
-    aquarama::bench::print(table);
     return 0;
 }
