@@ -1,13 +1,16 @@
 #!/usr/bin/env bash
-# try-bare.sh RELEASE...: what ./run does on a fresh Debian (bookworm, trixie), one release after the other.
+# try-bare.sh [--soak] RELEASE...: what ./run does on a fresh Debian (bookworm, trixie), one release after the other.
 #
 # Makes a minimal system in a temporary folder, clones HEAD into it, runs ./run there, and checks the pictures. The
-# first release records ten seconds of the reef; every release must replay them to the same world. Prints seconds and
-# the world's hash. Needs root and debootstrap: without them it ends with status 77, in CI with 1.
+# first release records ten seconds of the reef; every release must replay them to the same world. On trixie the driver
+# of a card that is not there then draws each scene (tests/drivers/drivers.sh; with --soak all drivers do). Prints
+# seconds and the world's hash. Needs root and debootstrap: without them it ends with status 77, in CI with 1.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-[ $# -gt 0 ] || { echo "usage: packaging/try-bare.sh RELEASE..., for example bookworm trixie" >&2; exit 2; }
+drivers=
+[ "${1:-}" != --soak ] || { drivers=--soak; shift; }
+[ $# -gt 0 ] || { echo "usage: packaging/try-bare.sh [--soak] RELEASE..., for example bookworm trixie" >&2; exit 2; }
 source packaging/bare_systems.sh
 
 # The first or last (head, tail) second behind which the log has such a line.
@@ -38,6 +41,9 @@ try() {
     in_system "$root" 'build/show/bin/aquarama replay reef.aqrec --check' >"$log" 2>&1 ||
         { cat "$log" >&2; echo "try-bare.sh: $release replays another world than was recorded" >&2; exit 1; }
     sed "s/^/$release: /" "$log"
+    if [ "$release" = trixie ]; then
+        in_system "$root" "tests/drivers/drivers.sh $drivers" || { echo "try-bare.sh: see the drivers above" >&2; exit 1; }
+    fi
     rm -rf --one-file-system "$root"
 }
 

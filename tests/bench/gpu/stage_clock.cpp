@@ -2,6 +2,7 @@
 #include "tests/bench/gpu/stage_clock.h"
 
 #include <algorithm>
+#include <ctime>
 
 #include <epoxy/gl.h>
 
@@ -23,6 +24,12 @@ void APIENTRY onPop() {
 void resolve() {
     glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, "stage clock");
     glPopDebugGroup();
+}
+
+double cpuMilliseconds() {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
 
 struct Pointers {
@@ -53,7 +60,8 @@ void StageClock::mark() {
         queries_.push_back(0);
         glCreateQueries(GL_TIMESTAMP, 1, &queries_.back());
     }
-    marks_.push_back({queries_[marks_.size()], open_.empty() ? "other" : open_.back()});
+    marks_.push_back(
+        {queries_[marks_.size()], open_.empty() ? "other" : open_.back(), cpuMilliseconds()});
     glQueryCounter(marks_.back().query, GL_TIMESTAMP);
 }
 
@@ -72,19 +80,21 @@ void StageClock::leave() {
     mark();
 }
 
-std::map<std::string, double> StageClock::end() {
+std::map<std::string, StageTime> StageClock::end() {
     mark();
-    std::map<std::string, double> milliseconds;
+    std::map<std::string, StageTime> times;
     GLuint64 before = 0;
     for (std::size_t i = 0; i < marks_.size(); ++i) {
         GLuint64 now = 0;
         glGetQueryObjectui64v(marks_[i].query, GL_QUERY_RESULT, &now);
-        if (i > 0)
-            milliseconds[marks_[i - 1].stage] +=
-                static_cast<double>(std::max(now, before) - before) / 1e6;
+        if (i > 0) {
+            StageTime& stage = times[marks_[i - 1].stage];
+            stage.gpu += static_cast<double>(std::max(now, before) - before) / 1e6;
+            stage.cpu += marks_[i].cpuMs - marks_[i - 1].cpuMs;
+        }
         before = now;
     }
-    return milliseconds;
+    return times;
 }
 
 }  // namespace aquarama::bench

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long the graphics card works on each stage of a frame (gl::Stage), by its own clock.
+// How long the graphics card works on each stage of a frame (gl::Stage), by its own clock, and how
+// long this process does.
 #pragma once
 
 #include <map>
@@ -7,6 +8,12 @@
 #include <vector>
 
 namespace aquarama::bench {
+
+// Milliseconds.
+struct StageTime {
+    double gpu = 0;
+    double cpu = 0;  // of all threads, those of the driver too
+};
 
 // While it lives, stages of the current context are marked by timestamps. One at a time.
 class StageClock {
@@ -20,7 +27,7 @@ class StageClock {
     void begin();
     // Waits for the card. Milliseconds by stage, without the stages inside; "other" is what is in
     // none. The sum is the whole frame.
-    [[nodiscard]] std::map<std::string, double> end();
+    [[nodiscard]] std::map<std::string, StageTime> end();
 
     void enter(const char* stage);
     void leave();
@@ -31,6 +38,7 @@ class StageClock {
     struct Mark {
         unsigned query = 0;
         std::string stage;  // that goes on from here
+        double cpuMs = 0;   // since the process began
     };
     std::vector<unsigned> queries_;
     std::vector<Mark> marks_;

@@ -10,7 +10,6 @@
 
 #include "render_node/show/channel_picture.h"
 #include "render_node/show/snapshot.h"
-#include "tests/bench/gpu/stage_clock.h"
 
 namespace aquarama::bench {
 
@@ -71,19 +70,24 @@ FrameTimes DrawnWall::timeFrames(const Patience& patience) {
 }
 
 StageTimes DrawnWall::timeStages(const Patience& patience, bool withPixels) {
-    std::map<std::string, std::vector<double>> samples;
+    struct Samples {
+        std::vector<double> gpu, cpu;
+    };
+    std::map<std::string, Samples> samples;
     StageClock clock;
     if (!withPixels) glEnable(GL_RASTERIZER_DISCARD);
     repeat(patience, [&](std::size_t i) {
         clock.begin();
         draw(sea_.frames[i % sea_.frames.size()]);
-        for (const auto& [stage, milliseconds] : clock.end())
-            samples[stage].push_back(milliseconds);
+        for (const auto& [stage, time] : clock.end()) {
+            samples[stage].gpu.push_back(time.gpu);
+            samples[stage].cpu.push_back(time.cpu);
+        }
     });
     glDisable(GL_RASTERIZER_DISCARD);
     StageTimes medians;
-    for (const auto& [stage, milliseconds] : samples)
-        medians[stage] = percentile(milliseconds, 0.5);
+    for (const auto& [stage, of] : samples)
+        medians[stage] = {percentile(of.gpu, 0.5), percentile(of.cpu, 0.5)};
     return medians;
 }
 

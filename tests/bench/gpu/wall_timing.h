@@ -12,6 +12,7 @@
 #include "render_node/gl/handle.h"
 #include "render_node/show/channel_picture.h"
 #include "tests/bench/gpu/sea.h"
+#include "tests/bench/gpu/stage_clock.h"
 
 namespace aquarama::bench {
 
@@ -28,8 +29,8 @@ struct FrameTimes {
     double cpu = 0;            // of all threads of the process, a frame in the mean
 };
 
-// Milliseconds a frame in the median, by the card's own clock.
-using StageTimes = std::map<std::string, double>;
+// A frame in the median.
+using StageTimes = std::map<std::string, StageTime>;
 
 // Each channel has its own scene, as each node has. Owns GL objects of the current context.
 class DrawnWall {
