@@ -14,7 +14,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 BIN = Path(os.environ.get("AQUARAMA_BIN", ROOT / "build/show/bin"))
 SHIM = "/usr/lib/x86_64-linux-gnu/libamdgpu_noop_drm_shim.so"
-PATIENCE = 180  # seconds: only a hang meets it
+PATIENCE = 900  # seconds: only a hang meets it
 
 def card(name, compiler):
     """What the node's log must say of it, and the environment that brings it, with statistics of each shader."""
