@@ -170,11 +170,22 @@ void ChannelPicture::drawScene(const wire::StateFrame& frame,
     }
 }
 
+namespace {
+
+surface::SchoolMoment momentOf(const wire::StateFrame& frame) {
+    return {frame.before,
+            frame.after,
+            frame.fraction,
+            frame.areMoved ? std::nullopt : std::optional(frame.tick)};
+}
+
+}  // namespace
+
 void ChannelPicture::drawWorld(const wire::StateFrame& frame) {
     presentFood(frame, food_);
     const scene::SceneFrame scene{.timeSeconds = presentedSeconds(frame),
                                   .eyePositionMetres = frame.eye.positionMetres,
-                                  .fish = {frame.before, frame.after, frame.fraction},
+                                  .fish = momentOf(frame),
                                   .food = food_,
                                   .daylight = place::daylightAt(day_, double{frame.timeOfDay}),
                                   .timeOfDay = frame.timeOfDay,

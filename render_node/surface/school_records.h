@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
+#include "common/base/units.h"
 #include "common/motion/motion_state.h"
 #include "render_node/gl/handle.h"
 #include "render_node/surface/fish_tables.h"
@@ -16,13 +18,16 @@ namespace aquarama::surface {
 struct SchoolMoment {
     std::span<const motion::FishRecord> before, after;
     float fraction = 1.0F;
+    // Of `after`; `before` is of the tick before. Nothing: they are of this moment alone.
+    std::optional<Tick> tick = {};
 };
 
 // Owns its GL objects; construct, use and destroy it with the same context current.
 class SchoolRecords {
   public:
     explicit SchoolRecords(std::span<const SchoolSpecies> cast);
-    // Uploads the records of a frame. Records beyond the cast's fish are ignored.
+    // Uploads the records of a frame, but for those of a tick that an earlier frame brought.
+    // Records beyond the cast's fish are ignored.
     void update(const SchoolMoment& moment);
     // Binds records and traits as shader storage.
     void bind() const;
@@ -33,10 +38,17 @@ class SchoolRecords {
     [[nodiscard]] float fraction() const { return fraction_; }
 
   private:
-    void upload(const gl::Buffer& buffer, std::span<const motion::FishRecord> records) const;
+    struct Uploaded {
+        gl::Buffer records;
+        std::optional<Tick> tick = {};  // nothing: of none that comes again
+    };
+    void upload(Uploaded& to,
+                std::span<const motion::FishRecord> records,
+                std::optional<Tick> tick) const;
 
     std::size_t fish_ = 0;
-    gl::Buffer before_, after_, traits_;
+    Uploaded before_, after_;
+    gl::Buffer traits_;
     std::size_t uploaded_ = 0;
     bool isBetween_ = false;
     float fraction_ = 1.0F;

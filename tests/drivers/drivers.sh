@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # drivers.sh [--soak]: OpenGL drivers of cards that are not there compile and check all that a node draws.
 #
-# For Debian 13. Its mesa-drm-shim starts AMD's driver without a card: shaders are compiled by the real compiler, and all
-# calls are checked, but nothing is executed, so pictures stay black. A desk of one channel shows each scene once and
-# each tier on a Radeon RX 6800 (NAVI21). Demanded are: no message of OpenGL, no vector register spilled, shaders that
-# Khronos' glslang takes too, and no more storage blocks and textures a stage than every OpenGL 4.5 has.
+# For Debian 13. Its mesa-drm-shim starts AMD's driver without a card: shaders are compiled by the real compiler, and
+# all calls are checked, but nothing is executed, so pictures stay black. A desk of one channel shows each scene once
+# and each tier on a Radeon RX 6800 (NAVI21). Demanded are: no message of OpenGL, no vector register spilled, shaders
+# that Khronos' glslang takes too, and no more storage blocks and textures a stage than other drivers have.
 #   --soak       the same with the driver's other compiler, on integrated graphics of two generations, on a Radeon RX
 #                7900, on Vulkan by zink with its validation layers, and on llvmpipe
 #   --only NAME  one of these: --help lists them

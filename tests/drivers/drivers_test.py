@@ -4,8 +4,8 @@ import unittest
 
 from drivers import LEAST_PROGRAMS, complaints, shaders_in, uses_of
 
-STATS = "Shader Stats: SGPRS: 16 VGPRS: 8 Code Size: 148 Spilled SGPRs: 112 Spilled VGPRs: {} PrivMem VGPRs: 0 (PS, W64)\n"
-BUILDING = "[2026-11-27 23:55:38.112] [node middle] [info] building 320 x 240 pixels on AMD Radeon (radeonsi, navi21, ACO)\n"
+STATS = "Shader Stats: SGPRS: 16 VGPRS: 8 Code Size: 148 Spilled SGPRs: 112 Spilled VGPRs: {} PrivMem VGPRs: 0 (PS)\n"
+BUILDING = "[2026-11-27 23:55:38.112] [node middle] [info] building 640 x 480 pixels on AMD (radeonsi, navi21, ACO)\n"
 GOOD = BUILDING + STATS.format(0) * LEAST_PROGRAMS
 
 
@@ -28,13 +28,15 @@ class Complaints(unittest.TestCase):
                          ["2 shaders spill vector registers, 12 at most"])
 
     def test_another_driver_or_one_that_compiled_nothing_proves_nothing(self):
-        self.assertEqual(self.of(GOOD.replace("navi21", "renoir")), ["the node did not draw with radeonsi, navi21, ACO"])
+        self.assertEqual(self.of(GOOD.replace("navi21", "renoir")),
+                         ["the node did not draw with radeonsi, navi21, ACO"])
         self.assertEqual(self.of(BUILDING + STATS.format(0)), ["shaders that were compiled: 1; the show was not drawn"])
 
 
 class Shaders(unittest.TestCase):
     def test_each_stage_of_a_program_is_found(self):
-        self.assertEqual(shaders_in("[require]\nGLSL >= 0.00\n\n[vertex shader]\nint a[2];\n\n[fragment shader]\nvoid f();\n"),
+        captured = "[require]\nGLSL >= 0.00\n\n[vertex shader]\nint a[2];\n\n[fragment shader]\nvoid f();\n"
+        self.assertEqual(shaders_in(captured),
                          [("vertex", "int a[2];\n\n"), ("fragment", "void f();\n")])
 
     def test_storage_blocks_and_textures_are_counted(self):
