@@ -42,7 +42,8 @@ try() {
         { cat "$log" >&2; echo "try-bare.sh: $release replays another world than was recorded" >&2; exit 1; }
     sed "s/^/$release: /" "$log"
     if [ "$release" = trixie ]; then
-        in_system "$root" "tests/drivers/drivers.sh $drivers" || { echo "try-bare.sh: see the drivers above" >&2; exit 1; }
+        in_system "$root" "tests/drivers/drivers.sh $drivers" ||
+            { echo "try-bare.sh: a driver does not take what is drawn; see above" >&2; exit 1; }
     fi
     rm -rf --one-file-system "$root"
 }
