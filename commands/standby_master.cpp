@@ -83,7 +83,7 @@ standby::FollowerOptions followerOptions(const config::Rig& rig,
     return {.machine = machine,
             .connect = [master, keys] { return net::connectNode(master, {}, keys); },
             .journal = wire::journalOf(options.show.rigPath),
-            .drawings = rig.drawings ? wire::drawingsOf(options.show.rigPath) : fs::path(),
+            .drawings = wire::drawingsOf(options.show.rigPath),
             .assets =
                 [rig, show = options.show, service = options.service](
                     const standby::WantedWorld& wanted) {

@@ -170,8 +170,8 @@ using StateView = BasicState<std::span<const FoodRecord>, const v1::Show*>;
 struct StateFrame : BasicState<std::vector<FoodRecord>, Show> {
     std::vector<motion::FishRecord> before;
     std::vector<motion::FishRecord> after;
-    // A node has put them elsewhere than where all fish of this tick are.
-    bool areMoved = false;
+    // They are those of every frame of this tick, and of the one before: none was moved since.
+    bool areOfTick = false;
 };
 // What a node has received: a frame without its fish, and how it comes to them.
 struct CodedState {

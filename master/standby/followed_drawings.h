@@ -20,8 +20,7 @@ namespace aquarama::standby {
 // what was there stays until then. Used by one thread.
 class FollowedDrawings {
   public:
-    // `folder`: as of a master; empty: the rig has no drawings. `say` sends a message to the
-    // master.
+    // `folder`: where a master of this machine would look. `say` sends a message to the master.
     FollowedDrawings(std::filesystem::path folder, std::function<void(v1::Envelope)> say);
 
     // The master's newest list.

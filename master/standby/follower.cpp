@@ -112,7 +112,7 @@ void Follower::takeShow(const v1::Journalled& part) {
     show_ = {part.scene(), part.wanted(), part.kept(), {}};
     if (!part.has_drawings()) return;
     show_.drawings = wire::digestIn(part.drawings());
-    if (!options_.drawings.empty()) drawings_.want(*show_.drawings);
+    drawings_.want(*show_.drawings);
 }
 
 void Follower::takePiece(const wire::Packet& piece, Tick tick) {

@@ -40,7 +40,7 @@ struct FollowerOptions {
     std::string machine;             // its own name
     net::Connect connect;            // to the master
     std::filesystem::path journal;   // folder of its own journal
-    std::filesystem::path drawings;  // folder of its own copy; empty: the rig has none
+    std::filesystem::path drawings;  // folder of its own copy
     // The files of this machine for such a world.
     std::function<simulation::Assets(const WantedWorld&)> assets;
 };

@@ -72,7 +72,7 @@ std::optional<Convergence::Gliding> Convergence::glidingBetween(const wire::Stat
 
 void Convergence::apply(wire::StateFrame& frame) {
     if (gliding_.empty()) return;
-    frame.areMoved = true;
+    frame.areOfTick = false;
     const auto tick = static_cast<double>(frame.tick.value);
     apply(tick, frame.after);
     if (!frame.before.empty()) apply(tick - 1, frame.before);

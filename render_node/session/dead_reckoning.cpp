@@ -101,7 +101,7 @@ ArrivedState DeadReckoning::make(Frame frame) {
     ArrivedState made{*newest_, net::monotonicNow(), true};
     wire::StateFrame& state = made.state;
     state.frame = frame;
-    state.areMoved = true;
+    state.areOfTick = false;
     state.tick = std::max(tick, fish_->recent.oldestTick());
     state.after = *fish_->recent.at(state.tick);
     const auto* const before =

@@ -126,6 +126,7 @@ std::optional<ArrivedState> SchoolFollower::next() {
         const auto* const before = isBetween ? recent_.at({ready.state.tick.value - 1}) : after;
         if (after == nullptr || before == nullptr) continue;
         ready.state.after = *after;
+        ready.state.areOfTick = true;
         if (isBetween) ready.state.before = *before;
         goOn();
         return ready;

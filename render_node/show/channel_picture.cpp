@@ -176,7 +176,7 @@ surface::SchoolMoment momentOf(const wire::StateFrame& frame) {
     return {frame.before,
             frame.after,
             frame.fraction,
-            frame.areMoved ? std::nullopt : std::optional(frame.tick)};
+            frame.areOfTick ? std::optional(frame.tick) : std::nullopt};
 }
 
 }  // namespace

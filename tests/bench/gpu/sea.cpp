@@ -33,7 +33,8 @@ wire::StateFrame frameAfter(const simulation::LivingWorld& world, const wire::St
              .timeOfDay = now.timeOfDay,
              .show = {}},
             last.after,
-            std::move(now.fish)};
+            std::move(now.fish),
+            true};
 }
 
 }  // namespace

@@ -74,6 +74,7 @@ struct Node {
     wire::StateFrame take(const wire::CodedState& coded) {
         follower.take(coded, kBegin);
         wire::StateFrame frame = follower.next().value().state;
+        EXPECT_TRUE(frame.areOfTick);
         reckoning.saw(frame);
         return frame;
     }
@@ -81,7 +82,9 @@ struct Node {
         reckoning.begin(cause, follower, motion);
     }
     wire::StateFrame at(std::uint64_t frame) {
-        return reckoning.due(momentOf(frame - 2)).value().state;
+        wire::StateFrame due = reckoning.due(momentOf(frame - 2)).value().state;
+        EXPECT_FALSE(due.areOfTick);
+        return due;
     }
 };
 
@@ -258,6 +261,12 @@ TEST_F(Silence, fishGlideToWhereTheMasterHasThem) {
         }
         wire::StateFrame shown = masters;
         convergence.apply(shown);
+        if (shown.after != masters.after) {
+            EXPECT_FALSE(shown.areOfTick) << frame;
+        }
+        if (frame >= 490) {
+            EXPECT_TRUE(shown.areOfTick) << frame;
+        }
         for (const motion::FishRecord& record : shown.after) ASSERT_TRUE(isPlayable(record));
         const auto was = placesIn(before);
         for (const auto& [fish, place] : placesIn(shown)) {

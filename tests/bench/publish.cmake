@@ -1,0 +1,1 @@
+aquarama_bench(SOURCES publish_bench.cpp LINK aquarama_net)
