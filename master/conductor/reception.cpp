@@ -255,15 +255,7 @@ void Conductor::giveChunk(const net::PeerId& peer, const v1::BlobRequest& reques
     if (!blob) blob = presentation_.blob(digest);
     countRefused(blob && request.offset() <= blob->size());
     if (!blob) return sender_.dismiss(peer, "the wall shows another look by now");
-    if (request.offset() > blob->size()) return;
-    const auto content = net::chunkAt(*blob, request.offset(), wire::kBlobChunkBytes);
-    v1::Envelope message;
-    v1::BlobChunk& chunk = *message.mutable_blob_chunk();
-    chunk.set_digest(request.digest());
-    chunk.set_offset(request.offset());
-    chunk.set_total(blob->size());
-    chunk.set_content(content.data(), content.size());
-    sender_.say(peer, std::move(message));
+    if (request.offset() <= blob->size()) sender_.sayChunk(peer, request, blob);
 }
 
 // Whoever shows no key is an account of this machine.

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "common/net/blob.h"
 #include "common/net/channels.h"
 #include "common/wire/messages.h"
 
@@ -29,6 +30,19 @@ class Sender {
     void send(const net::PeerId& peer, net::ByteView packet) const { send_(peer, packet); }
     void say(const net::PeerId& peer, v1::Envelope message) const {
         send_(peer, packetOf(std::move(message)));
+    }
+    // Answers a request for a part of this blob, which is not null.
+    void sayChunk(const net::PeerId& peer,
+                  const v1::BlobRequest& request,
+                  const net::Blob& blob) const {
+        const auto content = net::chunkAt(*blob, request.offset(), wire::kBlobChunkBytes);
+        v1::Envelope message;
+        v1::BlobChunk& chunk = *message.mutable_blob_chunk();
+        chunk.set_digest(request.digest());
+        chunk.set_offset(request.offset());
+        chunk.set_total(blob->size());
+        chunk.set_content(content.data(), content.size());
+        say(peer, std::move(message));
     }
     // Tells the peer that it is not counted, or not any more.
     void dismiss(const net::PeerId& peer, const std::string& why) const {

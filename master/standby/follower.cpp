@@ -18,7 +18,7 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr net::Duration kBetweenFollows = milliseconds(50);
-constexpr std::uint64_t kMostUnsaid = 8;  // parts
+constexpr std::uint64_t kMostUntold = 8;  // parts
 constexpr net::Duration kLongestWait = milliseconds(5);
 // A master that is silent for so long is sought by a fresh connection, as old ones may be dead
 // without notice, and ZeroMQ never retries one whose key was refused.
@@ -42,8 +42,7 @@ Follower::Follower(FollowerOptions options)
 
 void Follower::turn() {
     const net::Moment now = net::monotonicNow();
-    if (now - lastFollow_ >= kBetweenFollows || parts_.taken() - saidParts_ >= kMostUnsaid)
-        follow(now);
+    if (now - lastFollow_ >= kBetweenFollows || parts_.untold() >= kMostUntold) follow(now);
     if (now - lastHeard_ > kSilence) {
         channels_ = options_.connect();
         lastHeard_ = now;
@@ -78,7 +77,7 @@ void Follower::follow(net::Moment now) {
     follow.set_in_step(isInStep);
     if (const auto& list = drawings_.kept()) follow.set_drawings(wire::bytesOf(*list));
     channels_->sendControl(wire::encode(0, std::move(message)));
-    saidParts_ = parts_.taken();
+    parts_.told();
     lastFollow_ = now;
 }
 

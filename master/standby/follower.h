@@ -95,7 +95,7 @@ class Follower {
     wire::Packet beginning_;  // of the stream's recording, without its save
     std::deque<wire::RecordedHash> expected_;
     Parts parts_;
-    std::uint64_t saidParts_ = 0, lease_ = 0;
+    std::uint64_t lease_ = 0;
     std::uint64_t saidInStep_ = 0;  // the stream
     Tick known_;                    // up to it all inputs are known
     FollowedClock clock_;

@@ -6,7 +6,7 @@
 namespace aquarama::standby {
 
 void Parts::forget() {
-    stream_ = taken_ = 0;
+    stream_ = taken_ = told_ = 0;
     buffer_.clear();
     isWhole_ = false;
 }

@@ -25,15 +25,18 @@ class Parts {
     [[nodiscard]] std::uint64_t stream() const { return stream_; }
     // Another one for each stream that is asked for.
     [[nodiscard]] std::uint64_t request() const { return request_; }
-    // How many were taken.
+    // How many were taken, and how many of them the master was not told of yet.
     [[nodiscard]] std::uint64_t taken() const { return taken_; }
+    [[nodiscard]] std::uint64_t untold() const { return taken_ - told_; }
+    // The master was told of all of them.
+    void told() { told_ = taken_; }
     // Of a piece a part has yet to come.
     [[nodiscard]] bool goesOn() const { return !buffer_.empty(); }
 
   private:
     void forget();
 
-    std::uint64_t stream_ = 0, request_ = 1, taken_ = 0;
+    std::uint64_t stream_ = 0, request_ = 1, taken_ = 0, told_ = 0;
     wire::Packet buffer_;
     bool isWhole_ = false;
 };

@@ -7,7 +7,10 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -69,11 +72,11 @@ class Master {
         feed_.turn(*world_, show_, net::monotonicNow());
     }
     // A drawing that a visitor has made; its number.
-    std::uint32_t draw(std::uint16_t grey) {
+    std::uint32_t draw(std::uint16_t grey) { return draw(*test::plainSkin(grey)); }
+    std::uint32_t draw(const std::vector<std::byte>& skin) {
         v1::OfferedDrawing offered;
         offered.set_species("clownfish");
-        const auto skin = test::plainSkin(grey);
-        offered.set_skin(skin->data(), skin->size());
+        offered.set_skin(skin.data(), skin.size());
         std::uint32_t number = 0;
         EXPECT_NE(drawings_.offer(++requests_, offered, 1'800'000'000, number).outcome,
                   ask::Outcome::Refused);
@@ -101,19 +104,14 @@ class Master {
         rules.species = {"clownfish"};
         return rules;
     }
+    static net::Blob spoilt(std::vector<std::byte> blob) {
+        blob.back() ^= std::byte{1};
+        return std::make_shared<const std::vector<std::byte>>(std::move(blob));
+    }
     void giveChunk(const net::PeerId& peer, const v1::BlobRequest& request) {
         const net::Blob blob = drawings_.blob(wire::digestIn(request.digest()));
         ASSERT_TRUE(blob);
-        constexpr std::size_t kSmall = 1000;  // several for a skin
-        const auto content = net::chunkAt(*blob, request.offset(), kSmall);
-        v1::Envelope message;
-        v1::BlobChunk& chunk = *message.mutable_blob_chunk();
-        chunk.set_digest(request.digest());
-        chunk.set_offset(request.offset());
-        chunk.set_total(blob->size());
-        chunk.set_content(content.data(), content.size());
-        if (areSpoilt_) chunk.mutable_content()->back() ^= 1;
-        sender_.say(peer, std::move(message));
+        sender_.sayChunk(peer, request, areSpoilt_ ? spoilt(*blob) : blob);
     }
     void visit() {
         const std::uint64_t tick = world_->tick().value;
@@ -150,6 +148,7 @@ class FollowerTest : public testing::Test {
                                  EXPECT_EQ(wanted.scene, "tank");
                                  const auto& school = assetsOf(1).bytes.cast.front();
                                  EXPECT_EQ(wanted.fish, school.fish - school.drawings);
+                                 ++beginnings_;
                                  return assetsOf(seedOfFiles_);
                              }});
     }
@@ -182,6 +181,7 @@ class FollowerTest : public testing::Test {
     test::MemoryNet net_;
     Master master_;
     std::uint32_t seedOfFiles_ = 1;  // of this machine's files, whatever was asked for
+    int beginnings_ = 0;             // worlds that the standby tried to make
 };
 
 TEST_F(FollowerTest, takesOverTheSameWorldWithWhatIsAhead) {
@@ -292,9 +292,12 @@ TEST_F(FollowerTest, doesNotStandByWithOtherFiles) {
     setLogListener([&](Severity severity, const std::string& line) {
         if (severity == Severity::Error) errors += line + "\n";
     });
+    const net::Moment begun = net::monotonicNow();
     for (int i = 0; i < 100; ++i) turn(spare);
     setLogListener({});
     EXPECT_FALSE(spare.hasWorld());
+    EXPECT_LE(beginnings_, 1 + net::secondsIn(net::monotonicNow() - begun) / 5)
+        << "it tries every five seconds";
     EXPECT_THAT(errors, HasSubstr("spare does not stand by: scene tank"));
     seedOfFiles_ = 1;  // they were put right
     const net::Moment end = net::monotonicNow() + std::chrono::seconds(60);
@@ -329,6 +332,23 @@ TEST_F(FollowerTest, keepsTheDrawingsAsTheMasterHasThem) {
     ASSERT_EQ(found.drawings.size(), 1U);
     EXPECT_TRUE(found.drawings[0].isLetIn);
     EXPECT_FALSE(fs::exists(folder_ / "drawings" / (std::to_string(first) + ".png")));
+}
+
+// Noise that no compression makes smaller: a skin in several parts.
+TEST_F(FollowerTest, keepsALargeDrawing) {
+    std::mt19937 random{3};
+    PngPicture noise{.sizePixels = body::kSideTexels,
+                     .codes = std::vector<std::uint16_t>(
+                         3 * static_cast<std::size_t>(body::kSideTexels.x * body::kSideTexels.y))};
+    for (std::uint16_t& code : noise.codes) code = static_cast<std::uint16_t>(random() & 255U);
+    const auto skin = encodePng(noise, PngMeaning::Srgb);
+    ASSERT_GT(skin.size(), 2 * wire::kBlobChunkBytes);
+    master_.draw(skin);
+    Follower spare = follower();
+    ASSERT_TRUE(getsInStep(spare));
+    ASSERT_TRUE(hasDrawings(spare));
+    ASSERT_EQ(kept().drawings.size(), 1U);
+    EXPECT_EQ(*kept().drawings[0].skin, skin);
 }
 
 TEST_F(FollowerTest, keepsTheDrawingsThatItHasWhereTheMastersCannotBeRead) {
