@@ -170,7 +170,7 @@ using StateView = BasicState<std::span<const FoodRecord>, const v1::Show*>;
 struct StateFrame : BasicState<std::vector<FoodRecord>, Show> {
     std::vector<motion::FishRecord> before;
     std::vector<motion::FishRecord> after;
-    // They are those of every frame of this tick, and of the one before: none was moved since.
+    // All frames between these two ticks have these fish: this node has moved none of them.
     bool areOfTick = false;
 };
 // What a node has received: a frame without its fish, and how it comes to them.

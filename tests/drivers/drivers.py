@@ -11,10 +11,13 @@ import time
 from collections import Counter
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
-BIN = Path(os.environ.get("AQUARAMA_BIN", ROOT / "build/show/bin"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "end_to_end"))
+
+from show import BIN, ROOT, aquarama, end, wait_until  # noqa: E402
+
 SHIM = "/usr/lib/x86_64-linux-gnu/libamdgpu_noop_drm_shim.so"
 PATIENCE = 300  # seconds: only a hang meets it
+
 
 def card(name, compiler):
     """What the node's log must say of it, and the environment that brings it, with statistics of each shader."""
@@ -83,7 +86,7 @@ def check_shaders(folder):
         files = sorted(map(str, Path(split).iterdir()))
         said = subprocess.run(["glslangValidator", *files], capture_output=True, text=True) if files else None
     if said and said.returncode:
-        found += [line for line in said.stdout.splitlines() if "ERROR" in line][:20]
+        found += [line for line in said.stdout.splitlines() if "ERROR" in line][:20] or [f"glslangValidator: {said}"]
     programs = len(list(folder.glob("*.shader_test")))
     if programs < LEAST_PROGRAMS:
         found.append(f"programs that were linked: {programs}; the show was not drawn")
@@ -101,39 +104,29 @@ class Desk:
         shutil.copytree(ROOT / "config/scenes", folder / "scenes")
         shutil.copytree(ROOT / "config/species", folder / "species")
         wall = "--screen flat --count 1 --windows --width 4 --height 3 --distance 3 --throw 1".split()
-        self.aquarama("new-rig", *wall, "--scene", f"scenes/{scene}.txtpb", self.rig)
+        aquarama("new-rig", *wall, "--scene", f"scenes/{scene}.txtpb", self.rig)
         with self.log.open("w") as log:
             self.process = subprocess.Popen([BIN / "aquarama", "run", self.rig, "--headless", "--live", "--quality",
                                              "low"], stdout=log, stderr=subprocess.STDOUT,
                                             env=os.environ | environment, cwd=ROOT)
 
-    def aquarama(self, *arguments):
-        return subprocess.run([BIN / "aquarama", *map(str, arguments)], capture_output=True, text=True, cwd=ROOT,
-                              timeout=PATIENCE)
+    def is_shown(self):
+        """The node is in step with what was set."""
+        if self.process.poll() is not None or "ended with status" in self.log.read_text():
+            raise AssertionError("the show, or its node, has ended:\n" + self.log.read_text()[-1000:])
+        status = aquarama("status", self.rig).stdout
+        return (re.search("scene {scene} +quality {quality} ".format(**self.shown), status) and " in step" in status
+                and "to come " not in status)
 
     def await_shown(self):
-        """Until the node is in step with what was set."""
-        deadline = time.monotonic() + PATIENCE
-        while time.monotonic() < deadline:
-            if self.process.poll() is not None or "ended with status" in self.log.read_text():
-                raise AssertionError("the show, or its node, has ended:\n" + self.log.read_text()[-1000:])
-            status = self.aquarama("status", self.rig).stdout
-            if re.search("scene {scene} +quality {quality} ".format(**self.shown), status) and " in step" in status \
-                    and "to come " not in status:
-                return
-            time.sleep(0.2)
-        raise AssertionError(f"waited in vain for {self.shown}:\n{status}")
+        wait_until(self.is_shown, PATIENCE, f"{self.shown} to be shown")
 
     def show(self, what, value):
         self.shown[what] = value
-        said = self.aquarama("set", self.rig, what, value)
+        said = aquarama("set", self.rig, what, value)
         if said.returncode:
             raise AssertionError(said.stdout + said.stderr)
         self.await_shown()
-
-    def end(self):
-        self.process.terminate()
-        self.process.wait(30)
 
 
 def try_driver(name):
@@ -156,7 +149,7 @@ def try_driver(name):
         except AssertionError as problem:
             found.append(str(problem))
         finally:
-            desk.end()
+            end([desk.process], 30)
         log = desk.log.read_text()
         found += complaints(log, renderer, name in CARDS)
         scenes = 1 + sum(what == "scene" for what, _ in changes)

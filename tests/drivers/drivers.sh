@@ -19,4 +19,5 @@ if [ ! -e $shim ]; then
     echo "SKIPPED: no drivers without cards here; they need Debian 13, packaging/packages/drivers.txt" >&2
     [ -z "${CI:-}" ] && exit 77 || exit 1
 fi
+export AQUARAMA_BIN=${AQUARAMA_BIN:-$PWD/build/show/bin}
 exec python3 tests/drivers/drivers.py "$@"
