@@ -138,6 +138,7 @@ void MasterLink::sayHello() {
     connection_.renew();
     phase_ = Phase::Greeting;
     moments_.statesSince.reset();
+    moments_.report = {};  // a master that let the node go has forgotten its machine
     joined_.reset();
     renumbered_.reset();
     fetch_.stop();

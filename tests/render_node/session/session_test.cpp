@@ -474,6 +474,20 @@ TEST_F(SessionTest, joinsAgainWhenItIsDismissed) {
     EXPECT_TRUE(join.get());
 }
 
+TEST_F(SessionTest, reportsItsMachineAtOnceWhenItJoinsAgain) {
+    becomeMember(wire::Pace::Live, {0});
+    ASSERT_TRUE(master_.hear(v1::Envelope::kNodeReport));
+    master_.say(test::dismissed("you were silent for too long"));
+    EXPECT_FALSE(session_->nextFrame());
+    auto join = joining();
+    ASSERT_TRUE(master_.hear(v1::Envelope::kHello));
+    master_.say(test::welcome(deskWelcome()));
+    prepare(join.get());
+    master_.letIn({9});
+    // The next of its own accord would come 5 s after the first.
+    EXPECT_TRUE(master_.hear(v1::Envelope::kNodeReport, seconds(3)));
+}
+
 TEST_F(SessionTest, joinsAgainWhenTheMasterWasStartedAgain) {
     becomeMember(wire::Pace::Live, {0});
     master_.run = kRun + 2;
