@@ -6,13 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <exception>
 #include <optional>
 #include <vector>
 
 extern "C" {
 #include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
 #include <libavutil/imgutils.h>
 #include <libavutil/opt.h>
 #include <libswscale/swscale.h>
@@ -20,9 +18,11 @@ extern "C" {
 #include <webp/encode.h>
 #include <webp/mux.h>
 
+#include "calibration/compose/video_file.h"
 #include "common/base/log.h"
 #include "common/base/output_file.h"
 #include "common/base/units.h"
+#include "common/parts/part.h"
 
 namespace aquarama::compose {
 
@@ -101,27 +101,15 @@ constexpr AVPixelFormat kPixels = AV_PIX_FMT_YUV420P;  // what every player show
 // Exact: the fast conversions of the library are two codes off.
 constexpr int kConversion =
     SWS_BILINEAR | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP | SWS_FULL_CHR_H_INT;
-constexpr AVRational kTick{1, static_cast<int>(kTicksPerSecond)};
-
-struct Free {
+struct FreeEncoding {
     void operator()(AVCodecContext* encoder) const { avcodec_free_context(&encoder); }
+    void operator()(AVCodecParameters* codec) const { avcodec_parameters_free(&codec); }
     void operator()(AVFrame* frame) const { av_frame_free(&frame); }
     void operator()(AVPacket* packet) const { av_packet_free(&packet); }
     void operator()(SwsContext* converter) const { sws_freeContext(converter); }
-    void operator()(AVFormatContext* file) const { avformat_free_context(file); }
-    void operator()(AVIOContext* stream) const {
-        av_freep(&stream->buffer);
-        avio_context_free(&stream);
-    }
 };
 template <class Owned>
-using Owner = std::unique_ptr<Owned, Free>;
-
-std::string reason(int error) {
-    std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
-    av_strerror(error, text.data(), text.size());
-    return text.data();
-}
+using Owner = std::unique_ptr<Owned, FreeEncoding>;
 
 // Colours have half the resolution each way, so both sizes must be even: the last column or row is
 // doubled where they are not.
@@ -133,6 +121,9 @@ glm::ivec2 evenSize(glm::ivec2 size) {
 void chooseQuality(AVCodecContext& encoder) {
     av_opt_set(encoder.priv_data, "crf", "18", 0);     // H.264: hardly to be told from the original
     av_opt_set(encoder.priv_data, "aq-mode", "3", 0);  // H.264: bits for what is dark
+    // H.264: the same bits each time and on every machine. Without, one run of some was another,
+    // by an estimate that its fastest code makes.
+    av_opt_set(encoder.priv_data, "x264-params", "cpu-independent=1", 0);
     av_opt_set(encoder.priv_data, "deadline", "good", 0);  // VP9
     av_opt_set(encoder.priv_data, "cpu-used", "4", 0);
     const std::string name = encoder.codec->name;
@@ -143,7 +134,10 @@ void chooseQuality(AVCodecContext& encoder) {
     }
 }
 
-Owner<AVCodecContext> openEncoder(const char* name, const ClipFormat& format, bool headerInFile) {
+// What an encoder writes depends on the number of its threads: the same on every machine.
+constexpr int kThreads = 8;
+
+Owner<AVCodecContext> openEncoder(const char* name, const ClipFormat& format) {
     const AVCodec* codec = avcodec_find_encoder_by_name(name);
     if (codec == nullptr) return nullptr;
     Owner<AVCodecContext> encoder{avcodec_alloc_context3(codec)};
@@ -157,7 +151,8 @@ Owner<AVCodecContext> openEncoder(const char* name, const ClipFormat& format, bo
     encoder->color_primaries = AVCOL_PRI_BT709;
     encoder->color_trc = AVCOL_TRC_IEC61966_2_1;  // of our codes: sRGB
     encoder->color_range = AVCOL_RANGE_MPEG;
-    if (headerInFile) encoder->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
+    encoder->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;  // as MP4 wants it
+    encoder->thread_count = kThreads;
     chooseQuality(*encoder);
     if (avcodec_open2(encoder.get(), codec, nullptr) < 0) return nullptr;
     return encoder;
@@ -180,80 +175,24 @@ Owner<SwsContext> makeConverter(glm::ivec2 size) {
     return converter;
 }
 
-// What FFmpeg's libraries write goes through our file: they call these functions, which must not
-// throw, so an error waits until rethrow().
-class VideoStream {
-  public:
-    explicit VideoStream(const std::string& path) : file_{path} {
-        constexpr int kBufferBytes = 1 << 16;
-        auto* const buffer = static_cast<unsigned char*>(av_malloc(kBufferBytes));
-        stream_.reset(avio_alloc_context(
-            buffer, kBufferBytes, 1, this, nullptr, take, file_.canSeek() ? seek : nullptr));
-        if (!stream_) throw Error("a clip cannot be made: no memory");
-        stream_->seekable = file_.canSeek() ? AVIO_SEEKABLE_NORMAL : 0;
-    }
-    [[nodiscard]] AVIOContext* get() const { return stream_.get(); }
-    [[nodiscard]] const OutputFile& file() const { return file_; }
-    void rethrow() const {
-        if (failure_) std::rethrow_exception(failure_);
-    }
-    void finish() {
-        avio_flush(stream_.get());
-        rethrow();
-        file_.finish();
-    }
-
-  private:
-    // Later versions of the library give bytes that are const.
-    template <class Byte>
-    static int take(void* self, Byte* bytes, int count) {
-        return static_cast<VideoStream*>(self)->take(
-            std::as_bytes(std::span(bytes, static_cast<std::size_t>(count))));
-    }
-    int take(std::span<const std::byte> bytes) {
-        try {
-            if (file_.canSeek())
-                file_.writeAt(at_, bytes);
-            else
-                file_.write(bytes);
-        } catch (const Error&) {
-            failure_ = std::current_exception();
-            return AVERROR(EIO);
-        }
-        at_ += bytes.size();
-        return static_cast<int>(bytes.size());
-    }
-    // From the beginning only: no other is asked for, but for the size, which is not known.
-    static std::int64_t seek(void* self, std::int64_t offset, int whence) {
-        if (whence != SEEK_SET || offset < 0) return AVERROR(ENOSYS);
-        static_cast<VideoStream*>(self)->at_ = static_cast<std::uint64_t>(offset);
-        return offset;
-    }
-
-    OutputFile file_;
-    std::uint64_t at_ = 0;
-    std::exception_ptr failure_;
-    Owner<AVIOContext> stream_;
-};
-
 // Frames are converted, encoded and written one by one.
 class Video final : public Clip {
   public:
     Video(const ClipFormat& format, std::span<const char* const> encoders)
         : format_{format}, packet_{av_packet_alloc()} {
         av_log_set_level(AV_LOG_FATAL);
-        AVFormatContext* made = nullptr;
-        avformat_alloc_output_context2(&made, nullptr, "mp4", nullptr);
-        if (made == nullptr)
-            throw Error("this build of FFmpeg's libraries writes no MP4; install libavformat59");
-        file_.reset(made);
+        requireMp4();
         open(encoders);
-        start();
+        const Owner<AVCodecParameters> codec{avcodec_parameters_alloc()};
+        avcodec_parameters_from_context(codec.get(), encoder_.get());
+        file_.emplace(format.path, *codec, format.ticksBetween);
         makeFrame();
     }
     void add(const Picture& picture, std::uint64_t tick) override {
         assert(picture.sizePixels == format_.sizePixels);
         if (!first_) first_ = tick;
+        if (pictures_ > 0 && pictures_ % parts::kPicturesOfPiece == 0) beginPiece();
+        ++pictures_;
         fillFrame(picture);
         frame_->pts = static_cast<std::int64_t>(tick - *first_);
         encode(frame_.get());
@@ -261,16 +200,14 @@ class Video final : public Clip {
 
     void finish() override {
         encode(nullptr);
-        check(av_write_trailer(file_.get()));
-        written_->finish();
+        file_->finish();
     }
 
   private:
     void open(std::span<const char* const> encoders) {
-        const bool header = (file_->oformat->flags & AVFMT_GLOBALHEADER) != 0;
         std::string tried;
         for (const char* name : encoders) {
-            encoder_ = openEncoder(name, format_, header);
+            encoder_ = openEncoder(name, format_);
             if (encoder_) return;
             tried += tried.empty() ? name : std::string(", ") + name;
         }
@@ -278,25 +215,12 @@ class Video final : public Clip {
                     tried + "; install libavcodec59, or write FILE.webp");
     }
 
-    void start() {
-        stream_ = avformat_new_stream(file_.get(), nullptr);
-        stream_->time_base = kTick;
-        stream_->avg_frame_rate = encoder_->framerate;
-        avcodec_parameters_from_context(stream_->codecpar, encoder_.get());
-        written_ = std::make_unique<VideoStream>(format_.path);
-        file_->pb = written_->get();
-        file_->url =
-            av_strdup(written_->file().writtenPath().c_str());  // read to put the index first
-        // Plays before all of it has come; in a pipe the index cannot be put first.
-        const bool isPipe = !written_->file().canSeek();
-        AVDictionary* options = nullptr;
-        av_dict_set(&options,
-                    "movflags",
-                    isPipe ? "+frag_keyframe+empty_moov+default_base_moof" : "+faststart",
-                    0);
-        const int written = avformat_write_header(file_.get(), &options);
-        av_dict_free(&options);
-        check(written);
+    // Ends the piece before and begins another, which knows nothing of it: so the pieces of a film
+    // are the same whether one machine encodes them or several do.
+    void beginPiece() {
+        encode(nullptr);
+        encoder_ = openEncoder(encoder_->codec->name, format_);
+        if (!encoder_) file_->check(AVERROR(ENOMEM));
     }
 
     void makeFrame() {
@@ -306,7 +230,7 @@ class Video final : public Clip {
         frame_->format = kPixels;
         frame_->width = size.x;
         frame_->height = size.y;
-        check(av_frame_get_buffer(frame_.get(), 0));
+        file_->check(av_frame_get_buffer(frame_.get(), 0));
         rgb_.resize(3 * static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
     }
 
@@ -322,7 +246,7 @@ class Video final : public Clip {
                 for (std::size_t c = 0; c < 3; ++c)
                     *out++ = static_cast<std::uint8_t>(picture.rgb[3 * from + c]);
             }
-        check(av_frame_make_writable(frame_.get()));
+        file_->check(av_frame_make_writable(frame_.get()));
         const std::array<const std::uint8_t*, 1> planes{rgb_.data()};
         const std::array<int, 1> strides{3 * size.x};
         sws_scale(converter_.get(),
@@ -335,34 +259,23 @@ class Video final : public Clip {
     }
 
     void encode(const AVFrame* frame) {
-        check(avcodec_send_frame(encoder_.get(), frame));
+        file_->check(avcodec_send_frame(encoder_.get(), frame));
         while (true) {
             const int received = avcodec_receive_packet(encoder_.get(), packet_.get());
             if (received == AVERROR(EAGAIN) || received == AVERROR_EOF) return;
-            check(received);
-            packet_->duration = format_.ticksBetween;
-            packet_->stream_index = stream_->index;
-            av_packet_rescale_ts(packet_.get(), kTick, stream_->time_base);
-            check(av_interleaved_write_frame(file_.get(), packet_.get()));
+            file_->check(received);
+            file_->write(*packet_);
         }
     }
 
-    void check(int result) const {
-        if (written_) written_->rethrow();
-        if (result < 0)
-            throw Error(format_.path + ": a clip cannot be made (" + reason(result) +
-                        "); choose FILE.webp");
-    }
-
     ClipFormat format_;
-    std::unique_ptr<VideoStream> written_;
-    Owner<AVFormatContext> file_;
+    std::optional<VideoFile> file_;
     Owner<AVCodecContext> encoder_;
     Owner<AVPacket> packet_;
-    AVStream* stream_ = nullptr;  // the file's
-    Owner<SwsContext> converter_;
     Owner<AVFrame> frame_;
+    Owner<SwsContext> converter_;
     std::vector<std::uint8_t> rgb_;
+    std::uint64_t pictures_ = 0;
     std::optional<std::uint64_t> first_;
 };
 

@@ -40,7 +40,8 @@ struct FilmedFrame {
 // rig.
 class Camera {
   public:
-    Camera(const config::Rig& rig, std::string of) : rig_{rig}, of_{std::move(of)} {
+    Camera(const config::Rig& rig, const Filming& filming)
+        : rig_{rig}, of_{filming.of}, fromFrame_{filming.fromFrame} {
         if (of_ != kPanorama && of_ != kHall) return;
         map_.emplace(rig);
         projectors_.emplace(rig);
@@ -53,7 +54,7 @@ class Camera {
         if (!map_) return frames.front().picture;
         const std::vector<Light> channels = channelsOf(frames);
         const Light panorama = map_->compose(channels);
-        const auto seed = static_cast<std::uint32_t>(frames.front().frame);
+        const auto seed = static_cast<std::uint32_t>(fromFrame_ + frames.front().frame);
         return aquarama::pictureOf(
             of_ == kHall ? composeHall(rig_, panorama, kHallPixels, channels) : panorama, 8, seed);
     }
@@ -76,6 +77,7 @@ class Camera {
 
     const config::Rig& rig_;
     std::string of_;
+    std::uint64_t fromFrame_;
     // Unless a channel is shown as it is.
     std::optional<PanoramaMap> map_;
     std::optional<Projectors> projectors_;
@@ -133,7 +135,7 @@ void film(const config::Rig& rig, const Filming& filming) {
     const std::vector<config::Channel> channels = filmedChannels(rig, filming.of);
     std::optional<FilmedChannels> filmed(std::in_place, filming.pipes, channels);
     cli::holdSignals();  // the clip ends with its nodes: what was shown until then is kept
-    const Camera camera(rig, filming.of);
+    const Camera camera(rig, filming);
     const auto clip =
         makeClip({filming.clipPath, camera.sizePixels(channels), filming.ticksBetween});
     auto frames = filmed->nextFrame();

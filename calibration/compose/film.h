@@ -22,6 +22,8 @@ struct Filming {
     std::string clipPath;         // .mp4 or .webp
     int ticksBetween = 1;
     std::optional<std::uint64_t> frames = {};  // of the show, where it is known
+    // The frame of the whole film at which this part of it begins.
+    std::uint64_t fromFrame = 0;
     // Folder for panorama.png and hall.png of the first frame, written at once, where the panorama
     // or the hall is filmed; empty: none.
     std::string firstPictures = {};

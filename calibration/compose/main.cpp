@@ -10,6 +10,7 @@
 #include "calibration/compose/check.h"
 #include "calibration/compose/compose.h"
 #include "calibration/compose/film.h"
+#include "calibration/compose/join.h"
 #include "calibration/compose/simulated_view.h"
 #include "common/base/counted.h"
 #include "common/base/log.h"
@@ -223,9 +224,23 @@ void addClip(cli::CommandLine& line) {
                     options.filming.frames,
                     "how many frames the show has, to say how long it takes")
         ->check(cli::wholeNumber(1, cli::kMostShownFrames));
+    command.add_option("--from-frame",
+                       options.filming.fromFrame,
+                       "the frame of the film at which this part of it begins");
     command.add_option("--first",
                        options.filming.firstPictures,
                        "folder for panorama.png and hall.png of the first frame, at once");
+}
+
+void addJoin(cli::CommandLine& line) {
+    const auto [command, options] = line.add<compose::JoinedClips>(
+        "join",
+        "make FILE.mp4 of clips, one behind the other, without encoding again",
+        compose::join);
+    command.add_option("FILE", options.out, "the whole clip")->required();
+    command.add_option("CLIP", options.clips, "the clips, in order")->required();
+    command.add_option("--every", options.ticksBetween, "sixtieths of a second to one picture")
+        ->check(cli::wholeNumber(1, 10000));
 }
 
 void drawView(const compose::SimulatedView& view) {
@@ -297,6 +312,7 @@ int main(int count, char** arguments) {
     addCompose(line);
     addClip(line);
     addEncode(line);
+    addJoin(line);
     addView(line);
     addInspect(line);
     return cli::runProgram(app, count, arguments, [&] { return line.runChosen(); });

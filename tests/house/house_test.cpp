@@ -345,6 +345,7 @@ TEST(House, commonIsLayered) {
          {"common/base/", "common/motion/", "common/body/", "common/wall/", "common/config/"}},
         {"common/net/", {"common/base/"}},
         {"common/lease/", {"common/base/"}},
+        {"common/parts/", {"common/base/"}},
         {"common/osc/", {"common/base/"}},
         {"common/tuio/", {"common/osc/"}},
         {"common/ask/", {"common/base/", "common/config/", "common/net/", "common/wire/"}},
