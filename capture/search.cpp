@@ -22,6 +22,7 @@
 
 #include "capture/gait_trial.h"
 #include "common/base/digest.h"
+#include "common/base/hash.h"
 #include "common/base/log.h"
 
 namespace aquarama::capture {
@@ -107,6 +108,15 @@ config::Species speciesAt(const SearchPoint& point, const config::Species& speci
         p.set(changed, p.least * std::pow(p.most / p.least, std::clamp(point.at(i), 0.0, 1.0)));
     }
     return changed;
+}
+
+config::Species beginningOf(std::uint32_t start, const config::Species& species) {
+    assert(start >= 1);
+    if (start == 1) return species;
+    SearchPoint point;
+    for (std::uint32_t i = 0; i < kParameters.size(); ++i)
+        point.push_back(static_cast<double>(unitOf(hashOf(start, i))));
+    return speciesAt(point, species);
 }
 
 namespace {

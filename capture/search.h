@@ -3,6 +3,7 @@
 // parameters as a unit cube, its journal, and the optimisation.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -21,6 +22,10 @@ using SearchPoint = std::vector<double>;
 [[nodiscard]] SearchPoint pointOf(const config::Species& species);
 // The species with the parameters of a point. Coordinates are clamped to 0 .. 1.
 [[nodiscard]] config::Species speciesAt(const SearchPoint& point, const config::Species& species);
+
+// Where a search begins: its first start at the species as it is, each other one at a point of the
+// cube by chance, the same for each number.
+[[nodiscard]] config::Species beginningOf(std::uint32_t start, const config::Species& species);
 
 // The journal: the evaluations of a search, written line by line as they are made, so that an
 // interrupted search can continue.

@@ -56,6 +56,7 @@ void addSearch(CommandLine& line);
 void addControllers(CommandLine& line);
 void addFidelity(CommandLine& line);
 void addStudy(CommandLine& line);
+void addMerge(CommandLine& line);
 void addStudyWall(CommandLine& line, CLI::App& studies);  // of the command `study`
 
 // Options that `run`, `replay` and `master` share: which rig shows which world, and how.

@@ -39,6 +39,7 @@ const std::array kGroups{
     Group{"Fish and their repertoires",
           {addCapture, addExport, addGaits, addForms, addSearch, addControllers, addFidelity}},
     Group{"Worlds", {addStudy}},
+    Group{"Offline work on a farm", {addMerge}},
 };
 
 }  // namespace

@@ -6,8 +6,11 @@
 #include <cassert>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -18,6 +21,8 @@
 #include "capture/report/report_data.h"
 #include "capture/report/take.h"
 #include "commands/commands.h"
+#include "commands/work_parts.h"
+#include "common/base/byte_stream.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
 #include "common/cli/command_line.h"
@@ -36,6 +41,7 @@ struct CaptureOptions {
     std::string out;
     std::string report;
     std::string config;
+    std::optional<parts::Part> part;
 };
 
 // Reads repertoires from the cache or captures them, with a progress bar; Ctrl-C ends it.
@@ -49,42 +55,113 @@ std::vector<capture::RepertoireFile> captured(const std::vector<config::Species>
                                     .isStopped = [&] { return isStopped.load(); }});
 }
 
-// Writes the repertoire and, where a report is requested, its data; returns the path of the data.
-fs::path write(const capture::RepertoireFile& file, const CaptureOptions& options) {
-    const fs::path path = fs::path(options.out) / (file.species + ".aqrep");
+// Writes SPECIES.aqrep and prints its path, which it returns.
+fs::path writeRepertoire(const capture::RepertoireFile& file, const std::string& folder) {
+    const fs::path path = fs::path(folder) / (file.species + ".aqrep");
     writeWhole(path, file.bytes);
     std::cout << path.string() << '\n';
+    return path;
+}
+
+// Writes the repertoire and, where a report is requested, its data; returns the path of the data.
+fs::path write(const capture::RepertoireFile& file, const CaptureOptions& options) {
+    const fs::path path = writeRepertoire(file, options.out);
     if (options.report.empty()) return {};
     const motion::Repertoire repertoire = motion::decodeRepertoire(file.bytes, path.string());
     return report::writeReport(repertoire, options.report);
 }
 
+// The repertoires of some species, in their order. A file that is no species has its error instead.
+std::vector<capture::RepertoireFile> captureFiles(std::span<const fs::path> files) {
+    std::vector<capture::RepertoireFile> made(files.size());
+    std::vector<config::Species> species;
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        try {
+            species.push_back(config::readSpecies(files[i].string()));
+            places.push_back(i);
+        } catch (const Error& error) {
+            made[i].error = error.what();
+        }
+    }
+    std::vector<capture::RepertoireFile> repertoires = captured(species);
+    for (std::size_t i = 0; i < places.size(); ++i) made[places[i]] = std::move(repertoires[i]);
+    return made;
+}
+
+// A part holds whole species: the name and the bytes of each.
+std::vector<std::byte> contentOf(std::span<const capture::RepertoireFile> files) {
+    ByteWriter writer;
+    const auto put = [&](const auto& bytes) {
+        writer.unsignedNumber(static_cast<std::uint32_t>(bytes.size()));
+        writer.numbers(std::as_bytes(std::span(bytes)));
+    };
+    for (const capture::RepertoireFile& file : files) {
+        put(file.species);
+        put(file.bytes);
+    }
+    return std::move(writer).take();
+}
+
+// A name becomes a file of the folder, and must be no path.
+std::vector<capture::RepertoireFile> repertoiresIn(const parts::FinishedPart& part) {
+    ByteReader reader(part.content);
+    std::vector<capture::RepertoireFile> files;
+    while (reader.ok() && reader.remaining() > 0) {
+        capture::RepertoireFile& file = files.emplace_back();
+        file.species = reader.characters(reader.unsignedNumber<std::uint32_t>());
+        const auto bytes = reader.unsignedNumber<std::uint32_t>();
+        requireWhole(reader.ok() && bytes <= reader.remaining() &&
+                         file.species.find('/') == std::string::npos,
+                     part);
+        file.bytes.resize(bytes);
+        reader.numbers(std::span(file.bytes));
+    }
+    requireWhole(reader.ok(), part);
+    return files;
+}
+
+// Of the texts of all species.
+Digest inputsOf(std::span<const fs::path> files) {
+    constexpr std::uintmax_t kMostText = 1U << 20U;
+    ByteWriter digests;
+    for (const fs::path& file : files)
+        digests.characters(digestOf(readWhole(file, kMostText)).bytes);
+    return digestOf(digests.written());
+}
+
+// Throws Error where a species fails or the capture is interrupted: such a part is not done.
+void capturePart(const CaptureOptions& options, std::span<const fs::path> files) {
+    cli::requireFile("--out", parts::partPath(options.out, *options.part));
+    const auto [first, last] = parts::unitsOf(*options.part, files.size());
+    const auto made = captureFiles(files.subspan(first, last - first));
+    for (const capture::RepertoireFile& file : made)
+        if (!file.error.empty()) throw Error(file.error);
+    writePart(
+        options.out, *options.part, parts::WorkKind::Capture, inputsOf(files), contentOf(made));
+}
+
 // Prints species that fail, and writes the others. Returns the exit status.
 int captureAll(const CaptureOptions& options) {
     cli::holdSignals();
+    const std::vector<fs::path> files =
+        capture::speciesFiles(options.species, configFolder(options.config));
+    if (options.part) {
+        capturePart(options, files);
+        return 0;
+    }
     cli::requireFolder("--out", options.out);
     cli::requireFolder("--report", options.report);
     if (!options.report.empty()) cli::requirePython({"matplotlib"});
-    const fs::path config = configFolder(options.config);
     int status = 0;
-    const auto fail = [&](const std::string& why) {
-        cli::sayError("aquarama capture", why);
-        status = 1;
-    };
-    std::vector<config::Species> species;
-    for (const fs::path& file : capture::speciesFiles(options.species, config)) {
-        try {
-            species.push_back(config::readSpecies(file.string()));
-        } catch (const Error& error) {
-            fail(error.what());
-        }
-    }
     std::vector<std::string> reports;
-    for (const capture::RepertoireFile& file : captured(species)) {
-        if (file.error.empty())
+    for (const capture::RepertoireFile& file : captureFiles(files)) {
+        if (file.error.empty()) {
             reports.push_back(write(file, options));
-        else
-            fail(file.error);
+        } else {
+            cli::sayError("aquarama capture", file.error);
+            status = 1;
+        }
     }
     if (!options.report.empty() && !reports.empty())
         cli::runPython({"matplotlib"}, "capture/report/draw_report.py", reports, options.report);
@@ -185,6 +262,13 @@ void exportSegment(const ExportOptions& options) {
 
 }  // namespace
 
+void mergeCapture(const std::string& out, const WorkInParts& work) {
+    cli::requireFolder("OUT", out);
+    for (const parts::FinishedPart& part : work)
+        for (const capture::RepertoireFile& file : repertoiresIn(part))
+            (void)writeRepertoire(file, out);
+}
+
 void describeConfig(CLI::App& command, std::string& folder) {
     command.add_option("--config", folder, "folder that holds scenes and species");
 }
@@ -203,7 +287,10 @@ void addCapture(CommandLine& line) {
                        options.species,
                        "name of a species in the config folder, or a file; all when not given");
     command.add_option("--out", options.out, "folder for SPECIES.aqrep")->required();
-    command.add_option("--report", options.report, "folder for a page with pictures and figures");
+    CLI::Option* report = command.add_option(
+        "--report", options.report, "folder for a page with pictures and figures");
+    describePart(command, options.part);
+    command.get_option("--part")->excludes(report);
     describeConfig(command, options.config);
 }
 

@@ -2,6 +2,7 @@
 // `aquarama run` and `aquarama replay`: shows on this machine; and the options that they share with
 // `aquarama master`, which they start.
 #include <cmath>
+#include <optional>
 #include <regex>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "commands/commands.h"
+#include "commands/work_parts.h"
 #include "common/config/rig.h"
 #include "common/config/scene.h"
 #include "master/supervisor/children.h"
@@ -69,11 +71,13 @@ int runWith(const supervisor::RunOptions& options) {
 struct ReplayOptions {
     supervisor::RunOptions run;
     bool check = false;
+    std::optional<parts::Part> part;
 };
 
 // Throws Error, before any process starts, where the file is not a recording.
 int replay(const ReplayOptions& options) {
     supervisor::requireRecording(options.run.show.replayPath);
+    if (options.part) return replayPart(options.run, *options.part, runWith);
     const Tick from{options.run.show.replayFromTick};
     return options.check ? checkReplay(options.run.show.replayPath, from) : runWith(options.run);
 }
@@ -178,6 +182,11 @@ void addReplay(CommandLine& line) {
         "--check", options.check, "without a wall: only check that the world is the same again");
     describeWall(command, options.run.show);
     describePictures(command, options.run);
+    describePart(command, options.part);
+    command.get_option("--part")
+        ->needs(command.get_option("--clip"))
+        ->excludes(command.get_option("--snapshot"))
+        ->excludes(command.get_option("--check"));
 }
 
 void addNode(CommandLine& line) {

@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // `aquarama gaits`, `search` and `controllers`: measure how species swim.
+#include <algorithm>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <iterator>
+#include <optional>
 #include <span>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "capture/capture_repertoire.h"
 #include "capture/gait_trial.h"
@@ -19,6 +25,9 @@
 #include "capture/search.h"
 #include "capture/start_figures.h"
 #include "commands/commands.h"
+#include "commands/work_parts.h"
+#include "common/base/byte_stream.h"
+#include "common/base/digest.h"
 #include "common/base/files.h"
 #include "common/cli/outputs.h"
 #include "common/cli/progress.h"
@@ -49,12 +58,14 @@ void printGaits(const GaitsOptions& options) {
         std::cout << capture::startTableRows(config::readSpecies(file.string())) << std::flush;
 }
 
-// Options of `search`. The journal lies beside `out`.
+// Options of `search`. The journals lie beside `out`. `trials` are of each start.
 struct SearchOptions {
     std::string species;
     std::string out;
     std::string config;
     std::size_t trials = 1000;
+    std::uint32_t starts = 1;
+    std::optional<parts::Part> part;
 };
 
 // The bytes of the whole file; empty where it cannot be read.
@@ -72,18 +83,32 @@ std::string told(std::size_t trials, const capture::SearchTrial& best) {
     return note.str();
 }
 
-// Continues where the journal ends; then chooses the strength of turns and writes the species' text
-// with the results.
-void searchGaitsOf(const SearchOptions& options) {
-    cli::requireFile("--out", options.out);
+// The text of a species file, and the species in it.
+struct SearchedSpecies {
+    std::string text;
+    config::Species species;
+};
+SearchedSpecies readSearched(const SearchOptions& options) {
     const fs::path file =
         capture::speciesFiles({options.species}, configFolder(options.config)).front();
     const std::string text = textOf(file);
-    const config::Species species = config::parseSpecies(text, file.string());
-    capture::SearchJournal journal(options.out + ".journal", capture::searchName(text));
-    cli::Progress bar("searching " + species.name);
+    return {text, config::parseSpecies(text, file.string())};
+}
+
+// FILE.journal; of a later start FILE.2.journal.
+std::string journalOf(const SearchOptions& options, std::uint32_t start) {
+    return options.out + (start == 1 ? "" : '.' + std::to_string(start)) + ".journal";
+}
+
+// The best trial of one start. Continues where its journal ends.
+capture::SearchTrial searchFrom(std::uint32_t start,
+                                const SearchedSpecies& searched,
+                                const SearchOptions& options) {
+    capture::SearchJournal journal(journalOf(options, start), capture::searchName(searched.text));
+    const std::string which = options.starts == 1 ? "" : " from start " + std::to_string(start);
+    cli::Progress bar("searching " + searched.species.name + which);
     const capture::SearchTrial best = capture::searchGaits(
-        species,
+        capture::beginningOf(start, searched.species),
         options.trials,
         journal,
         [&](std::size_t trials, const capture::SearchTrial& soFar) {
@@ -91,14 +116,78 @@ void searchGaitsOf(const SearchOptions& options) {
                      told(trials, soFar));
         });
     bar.show(1, told(journal.trials().size(), best));
+    return best;
+}
 
-    config::Species swimmer = capture::speciesAt(best.point, species);
+// Of the best trials of all starts takes the one that misses least, the first of equal ones. Then
+// chooses the strength of turns, and writes the species' text with the results.
+void writeFound(const std::string& text,
+                std::span<const capture::SearchTrial> trials,
+                const std::string& out) {
+    const capture::SearchTrial& best =
+        *std::ranges::min_element(trials, {}, &capture::SearchTrial::miss);
+    config::Species swimmer =
+        capture::speciesAt(best.point, config::parseSpecies(text, "the species' file"));
     swimmer.turn = capture::withFittingStrengths(swimmer);
     const std::string found = capture::withGaitsOf(swimmer, text);
-    writeWhole(options.out, std::as_bytes(std::span(found)));
-    std::cout << options.out << "\n\n"
+    writeWhole(out, std::as_bytes(std::span(found)));
+    std::cout << out << "\n\n"
               << capture::gaitTableHead()
-              << capture::gaitTableRows(config::parseSpecies(found, options.out));
+              << capture::gaitTableRows(config::parseSpecies(found, out));
+}
+
+// Files and options from which the trials follow.
+Digest inputsOf(const std::string& text, const SearchOptions& options) {
+    return digestOf(
+        fmt::format("{} {} {}", capture::searchName(text), options.trials, options.starts));
+}
+
+// A part holds the best trial of each of its starts, behind the species' text.
+std::vector<std::byte> contentOf(const std::string& text,
+                                 std::span<const capture::SearchTrial> trials) {
+    ByteWriter writer;
+    writer.unsignedNumber(static_cast<std::uint32_t>(text.size()));
+    writer.characters(text);
+    for (const capture::SearchTrial& trial : trials) {
+        writer.unsignedNumber(bitsOf(trial.miss));
+        writer.numbers(std::span(trial.point));
+    }
+    return std::move(writer).take();
+}
+
+// Adds the trials of a part, which judge themselves by their miss alone; returns the species' text.
+std::string readContent(const parts::FinishedPart& part,
+                        std::vector<capture::SearchTrial>& trials) {
+    ByteReader reader(part.content);
+    std::string text = reader.characters(reader.unsignedNumber<std::uint32_t>());
+    requireWhole(reader.ok(), part);
+    const std::size_t coordinates = capture::pointOf(config::parseSpecies(text, "part")).size();
+    while (reader.ok() && reader.remaining() > 0) {
+        capture::SearchTrial& trial = trials.emplace_back();
+        trial.miss = std::bit_cast<double>(reader.unsignedNumber<std::uint64_t>());
+        trial.point.resize(coordinates);
+        reader.numbers(std::span(trial.point));
+    }
+    requireWhole(reader.ok(), part);
+    return text;
+}
+
+void searchGaitsOf(const SearchOptions& options) {
+    cli::requireFile("--out",
+                     options.part ? parts::partPath(options.out, *options.part) : options.out);
+    const SearchedSpecies searched = readSearched(options);
+    const auto [first, last] = parts::unitsOf(options.part.value_or(parts::Part{}), options.starts);
+    std::vector<capture::SearchTrial> trials;
+    for (std::size_t i = first; i < last; ++i)
+        trials.push_back(searchFrom(static_cast<std::uint32_t>(i + 1), searched, options));
+    if (options.part)
+        writePart(options.out,
+                  *options.part,
+                  parts::WorkKind::Search,
+                  inputsOf(searched.text, options),
+                  contentOf(searched.text, trials));
+    else
+        writeFound(searched.text, trials, options.out);
 }
 
 struct ControllersOptions {
@@ -120,6 +209,15 @@ void drawControllers(const ControllersOptions& options) {
 
 }  // namespace
 
+void mergeSearch(const std::string& out, const WorkInParts& work) {
+    cli::requireFile("OUT", out);
+    std::string text;
+    std::vector<capture::SearchTrial> trials;
+    for (const parts::FinishedPart& part : work) text = readContent(part, trials);
+    requireWhole(!trials.empty(), work.back());
+    writeFound(text, trials, out);
+}
+
 void addGaits(CommandLine& line) {
     const auto [command, options] = line.add<GaitsOptions>(
         "gaits", "how species swim, turn and start, as tables in Markdown", printGaits);
@@ -139,9 +237,16 @@ void addSearch(CommandLine& line) {
             "the species file to write; beside it FILE.journal, with which the same command "
             "goes on where it was interrupted")
         ->required();
-    command.add_option("--trials", options.trials, "the most to make")
+    command.add_option("--trials", options.trials, "the most to make from each start")
         ->check(cli::wholeNumber(1, 1'000'000))
         ->capture_default_str();
+    command
+        .add_option("--starts",
+                    options.starts,
+                    "searches from so many points, the first at the species as it is")
+        ->check(cli::wholeNumber(1, 1000))
+        ->capture_default_str();
+    describePart(command, options.part);
     describeConfig(command, options.config);
 }
 

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "capture/report/report_data.h"
+#include "common/base/byte_stream.h"
 #include "common/base/worker_pool.h"
 #include "common/config/species.h"
 #include "common/place/place.h"
@@ -44,6 +45,20 @@ std::vector<Task> tasksOf(const StudyPlan& plan) {
 }
 
 constexpr std::uint64_t kTicksBetweenPinches = static_cast<std::uint64_t>(30 * kTicksPerSecond);
+
+Digest digestOfAssets(const wire::AssetBundle& assets) {
+    ByteWriter content;
+    const auto add = [&](const auto& bytes) {
+        content.characters(digestOf(std::as_bytes(std::span(bytes))).bytes);
+    };
+    add(assets.scene);
+    for (const wire::SpeciesAssets& species : assets.cast) {
+        add(species.text);
+        add(species.repertoire);
+        content.unsignedNumber(species.fish);
+    }
+    return digestOf(content.written());
+}
 
 // A scenario for each species of the cast, named after it, with no other in it.
 std::vector<Scenario> eachAlone(const Scenario& all) {
@@ -100,29 +115,47 @@ Figures runOnce(const Scenario& scenario,
     return figuresOf(diary, feeding.meanSeconds());
 }
 
-std::vector<Sample> runStudy(const StudyPlan& plan, const std::function<void(double)>& done) {
+std::size_t runsOf(const StudyPlan& plan) {
+    return plan.scenarios.size() * kConditions.size() * plan.seeds;
+}
+
+std::vector<Figures> runSome(const StudyPlan& plan,
+                             std::size_t first,
+                             std::size_t last,
+                             const std::function<void(double)>& done) {
     assert(done != nullptr);
+    assert(first <= last);
+    assert(last <= runsOf(plan));
     const std::vector<Task> tasks = tasksOf(plan);
+    std::vector<Figures> runs(last - first);
+    std::atomic<std::size_t> finished = 0;
+    WorkerPool(plan.threads).run(runs.size(), [&](std::size_t i) {
+        const Task& task = tasks[first + i];
+        // Each task writes an element of its own: no lock is needed.
+        runs[i] = runOnce(plan.scenarios[task.scenario],
+                          kConditions.at(task.condition).adaptation,
+                          task.seed,
+                          plan.minutes);
+        done(static_cast<double>(++finished) / static_cast<double>(runs.size()));
+    });
+    return runs;
+}
+
+std::vector<Sample> samplesOf(const StudyPlan& plan, std::span<const Figures> runs) {
+    assert(runs.size() == runsOf(plan));
     std::vector<Sample> samples(plan.scenarios.size());
     for (Sample& sample : samples)
-        for (auto& seeds : sample) seeds.resize(plan.seeds);
-    std::atomic<std::size_t> finished = 0;
-    WorkerPool(plan.threads).run(tasks.size(), [&](std::size_t i) {
-        const Task& task = tasks[i];
-        // Each task writes an element of its own: no lock is needed.
-        samples[task.scenario].at(task.condition)[task.seed - 1] =
-            runOnce(plan.scenarios[task.scenario],
-                    kConditions.at(task.condition).adaptation,
-                    task.seed,
-                    plan.minutes);
-        done(static_cast<double>(++finished) / static_cast<double>(tasks.size()));
-    });
+        for (auto& seeds : sample) {
+            seeds.assign(runs.begin(), runs.begin() + plan.seeds);
+            runs = runs.subspan(plan.seeds);
+        }
     return samples;
 }
 
 Scenario readScenario(const std::filesystem::path& scene) {
     const simulation::Assets assets = simulation::readAssets(scene.string(), {});
     Scenario scenario;
+    scenario.inputs = digestOfAssets(assets.bytes);
     scenario.world = simulation::worldOptionsOf(assets);
     // Fish are to be measured undisturbed, not how they make way.
     scenario.world.scene.tour.reset();

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/digest.h"
 #include "master/fish/secondary_controller.h"
 #include "master/study/chronicle.h"
 #include "master/study/overlaps.h"
@@ -38,6 +39,8 @@ inline constexpr std::array kConditions{
 // A scene that is run under every condition and seed.
 struct Scenario {
     std::string name;
+    // Of the files that the world is made of.
+    Digest inputs;
     // Its seed, threads and adaptation are replaced for each run.
     world::WorldOptions world;
     // Greatest half-width of the body in body lengths, by kind of the cast.
@@ -58,16 +61,24 @@ struct StudyPlan {
     unsigned threads = 1;
 };
 
+// The runs of a plan, in the order of its tables: by scenario, condition and seed.
+[[nodiscard]] std::size_t runsOf(const StudyPlan& plan);
+
 // One run, on one thread: a new world that settles for 30 s and is then watched for `minutes`.
 [[nodiscard]] Figures runOnce(const Scenario& scenario,
                               const fish::Adaptation& adaptation,
                               std::uint32_t seed,
                               double minutes);
 
-// Runs all of a plan and returns a sample for each scenario. After each run `done` gets the share
-// that is done, 0 to 1, from any of the threads.
-[[nodiscard]] std::vector<Sample> runStudy(const StudyPlan& plan,
+// Makes the runs of a plan from `first` up to `last`, which is not among them, and returns their
+// figures in order. After each run `done` gets the share that is done, 0 to 1, from any of the
+// threads.
+[[nodiscard]] std::vector<Figures> runSome(const StudyPlan& plan,
+                                           std::size_t first,
+                                           std::size_t last,
                                            const std::function<void(double)>& done);
+// A sample for each scenario, from the figures of all runs.
+[[nodiscard]] std::vector<Sample> samplesOf(const StudyPlan& plan, std::span<const Figures> runs);
 
 // The scenarios: scenes of the show and of config/scenes/study.
 

@@ -114,6 +114,7 @@ Process clipProcess(const RunOptions& options, const std::string& pipes) {
     append(arguments, "--pipes", pipes);
     append(arguments, "--of", options.clipOf);
     append(arguments, "--every", std::to_string(options.filmEvery));
+    append(arguments, "--from-frame", std::to_string(options.clipFromFrame));
     if (options.show.frames) append(arguments, "--frames", std::to_string(*options.show.frames));
     if (showsAllChannels(options.clipOf)) append(arguments, "--first", options.snapshotFolder);
     return {.name = kClip,

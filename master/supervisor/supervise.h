@@ -40,6 +40,8 @@ struct RunOptions {
     std::string clipPath;             // .mp4 or .webp; empty: no clip
     std::string clipOf = "panorama";  // or hall, or a channel's name
     int filmEvery = 1;                // frames of the show to one of the clip
+    // Where the clip is a part of a film: its frame at which the part begins.
+    std::uint64_t clipFromFrame = 0;
 
     // Whether frame n shows tick n and no clock is read.
     [[nodiscard]] bool lockstep() const {
