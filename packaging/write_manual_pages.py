@@ -25,7 +25,7 @@ ELSEWHERE = {"node": "aquarama-node", "console": "aquarama-console", "touch": "a
              "sheets": "aquarama-drawings"}  # commands with a page
 FORMER = {"aquarama-solve"}  # names of the release before, whose page is that of the new name
 COLUMN = 30  # where --help begins to say what an option does
-COMMAND_GROUP = re.compile(r"^(A show|While a show|Files|Fish and|Worlds|Commands|Subcommands)\b.*:$")
+COMMAND_GROUP = re.compile(r"^(A show|While a show|Files|Fish and|Worlds|Offline|Commands|Subcommands)\b.*:$")
 
 
 def escaped(text):
