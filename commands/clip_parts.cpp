@@ -83,6 +83,9 @@ int replayPart(const supervisor::RunOptions& whole,
     if (!whole.clipPath.ends_with(".mp4"))
         throw Error("--part makes parts of an MP4 only; name the clip FILE.mp4");
     const config::Rig rig = config::readRig(whole.show.rigPath);
+    if (whole.show.quality.empty() && !rig.quality)
+        throw Error(
+            "each machine would measure which quality it can draw; choose one by --quality");
     const std::uint64_t frames = framesOf(whole.show);
     const Digest inputs = inputsOf(whole, rig, frames);
     const auto film = filmOf(part, whole, frames);

@@ -5,8 +5,8 @@
 #include <atomic>
 #include <cassert>
 #include <filesystem>
+#include <functional>
 #include <iostream>
-#include <iterator>
 #include <optional>
 #include <span>
 #include <string>
@@ -71,22 +71,24 @@ fs::path write(const capture::RepertoireFile& file, const CaptureOptions& option
     return report::writeReport(repertoire, options.report);
 }
 
-// The repertoires of some species, in their order. A file that is no species has its error instead.
-std::vector<capture::RepertoireFile> captureFiles(std::span<const fs::path> files) {
-    std::vector<capture::RepertoireFile> made(files.size());
+// The repertoires of some species, in their order. For each that has none `fail` is called with the
+// reason, for a file that is no species before the others are captured.
+std::vector<capture::RepertoireFile> captureFiles(
+    std::span<const fs::path> files, const std::function<void(const std::string& why)>& fail) {
     std::vector<config::Species> species;
-    std::vector<std::size_t> places;
-    for (std::size_t i = 0; i < files.size(); ++i) {
+    for (const fs::path& file : files) {
         try {
-            species.push_back(config::readSpecies(files[i].string()));
-            places.push_back(i);
+            species.push_back(config::readSpecies(file.string()));
         } catch (const Error& error) {
-            made[i].error = error.what();
+            fail(error.what());
         }
     }
     std::vector<capture::RepertoireFile> repertoires = captured(species);
-    for (std::size_t i = 0; i < places.size(); ++i) made[places[i]] = std::move(repertoires[i]);
-    return made;
+    for (const capture::RepertoireFile& file : repertoires)
+        if (!file.error.empty()) fail(file.error);
+    std::erase_if(repertoires,
+                  [](const capture::RepertoireFile& file) { return !file.error.empty(); });
+    return repertoires;
 }
 
 // A part holds whole species: the name and the bytes of each.
@@ -134,9 +136,8 @@ Digest inputsOf(std::span<const fs::path> files) {
 void capturePart(const CaptureOptions& options, std::span<const fs::path> files) {
     cli::requireFile("--out", parts::partPath(options.out, *options.part));
     const auto [first, last] = parts::unitsOf(*options.part, files.size());
-    const auto made = captureFiles(files.subspan(first, last - first));
-    for (const capture::RepertoireFile& file : made)
-        if (!file.error.empty()) throw Error(file.error);
+    const auto made = captureFiles(files.subspan(first, last - first),
+                                   [](const std::string& why) { throw Error(why); });
     writePart(
         options.out, *options.part, parts::WorkKind::Capture, inputsOf(files), contentOf(made));
 }
@@ -154,15 +155,13 @@ int captureAll(const CaptureOptions& options) {
     cli::requireFolder("--report", options.report);
     if (!options.report.empty()) cli::requirePython({"matplotlib"});
     int status = 0;
+    const auto fail = [&](const std::string& why) {
+        cli::sayError("aquarama capture", why);
+        status = 1;
+    };
     std::vector<std::string> reports;
-    for (const capture::RepertoireFile& file : captureFiles(files)) {
-        if (file.error.empty()) {
-            reports.push_back(write(file, options));
-        } else {
-            cli::sayError("aquarama capture", file.error);
-            status = 1;
-        }
-    }
+    for (const capture::RepertoireFile& file : captureFiles(files, fail))
+        reports.push_back(write(file, options));
     if (!options.report.empty() && !reports.empty())
         cli::runPython({"matplotlib"}, "capture/report/draw_report.py", reports, options.report);
     return status;

@@ -115,6 +115,8 @@ class Parts(unittest.TestCase):
         recording, whole, made = (self.folder / name for name in ("show.aqrec", "whole.mp4", "made.mp4"))
         self.ran("run", rig, "--headless", "--pattern", "grey", "--frames", 61, "--record", recording)
         command = ["replay", recording, "--rig", rig, "--headless", "--quality", "low", "--clip"]
+        self.assert_refused("choose one by --quality", *(word for word in command if word not in ("--quality", "low")),
+                            made, "--part", "1/2")
         self.ran(*command, whole)
         for count in (1, 2, 3):
             files = self.parts_of(made, count, *command, made)
