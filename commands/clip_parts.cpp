@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "commands/master_shows.h"
 #include "commands/work_parts.h"
 #include "common/base/amounts.h"
 #include "common/base/byte_stream.h"
@@ -32,18 +33,23 @@ fs::path clipOf(const std::string& partFile) {
     return fs::path(partFile).replace_extension(".mp4");
 }
 
-// Frames of the show that the whole film has. Throws Error where it would begin after the end.
-std::uint64_t framesOf(const supervisor::ShowOptions& show) {
-    const Tick last = wire::readRecording(show.replayPath).lastTick();
-    if (show.replayFromTick > last.value)
-        throw Error(show.replayPath + ": ends after " + timeOf(last) +
+// The whole film with its first tick and number of frames. Throws Error where it would begin after
+// the end.
+supervisor::RunOptions measured(supervisor::RunOptions whole) {
+    const wire::Recording recording = wire::readRecording(whole.show.replayPath);
+    const Tick last = recording.lastTick();
+    const Tick from = firstShown(recording, Tick{whole.show.replayFromTick});
+    if (from > last)
+        throw Error(whole.show.replayPath + ": ends after " + timeOf(last) +
                     "; begin --at an earlier time");
-    const std::uint64_t frames = last.value + 1 - show.replayFromTick;
-    return std::min(show.frames.value_or(frames), frames);
+    const std::uint64_t frames = last.value + 1 - from.value;
+    whole.show.replayFromTick = from.value;
+    whole.show.frames = std::min(whole.show.frames.value_or(frames), frames);
+    return whole;
 }
 
 // The recording, the rig with its files, and the options from which the pictures follow.
-Digest inputsOf(const supervisor::RunOptions& whole, const config::Rig& rig, std::uint64_t frames) {
+Digest inputsOf(const supervisor::RunOptions& whole, const config::Rig& rig) {
     ByteWriter content;
     const auto add = [&](const Digest& digest) { content.characters(digest.bytes); };
     add(parts::digestOfFile(whole.show.replayPath));
@@ -51,7 +57,7 @@ Digest inputsOf(const supervisor::RunOptions& whole, const config::Rig& rig, std
     for (const auto& [name, file] : rig.files) add(digestOf(*file));
     add(digestOf(fmt::format("{} {} {} {} \"{}\" \"{}\"",
                              whole.show.replayFromTick,
-                             frames,
+                             *whole.show.frames,
                              whole.filmEvery,
                              whole.clipOf,
                              whole.show.quality,
@@ -61,8 +67,8 @@ Digest inputsOf(const supervisor::RunOptions& whole, const config::Rig& rig, std
 
 // The film of one part: the frames of its pieces. Nothing where the film has fewer pieces.
 std::optional<supervisor::RunOptions> filmOf(parts::Part part,
-                                             const supervisor::RunOptions& whole,
-                                             std::uint64_t frames) {
+                                             const supervisor::RunOptions& whole) {
+    const std::uint64_t frames = *whole.show.frames;
     const std::uint64_t ofPiece =
         std::uint64_t{parts::kPicturesOfPiece} * static_cast<std::uint64_t>(whole.filmEvery);
     const auto [first, last] = parts::unitsOf(part, (frames + ofPiece - 1) / ofPiece);
@@ -77,18 +83,18 @@ std::optional<supervisor::RunOptions> filmOf(parts::Part part,
 
 }  // namespace
 
-int replayPart(const supervisor::RunOptions& whole,
+int replayPart(const supervisor::RunOptions& options,
                parts::Part part,
                int (*run)(const supervisor::RunOptions&)) {
-    if (!whole.clipPath.ends_with(".mp4"))
+    if (!options.clipPath.ends_with(".mp4"))
         throw Error("--part makes parts of an MP4 only; name the clip FILE.mp4");
-    const config::Rig rig = config::readRig(whole.show.rigPath);
-    if (whole.show.quality.empty() && !rig.quality)
+    const config::Rig rig = config::readRig(options.show.rigPath);
+    if (options.show.quality.empty() && !rig.quality)
         throw Error(
             "each machine would measure which quality it can draw; choose one by --quality");
-    const std::uint64_t frames = framesOf(whole.show);
-    const Digest inputs = inputsOf(whole, rig, frames);
-    const auto film = filmOf(part, whole, frames);
+    const supervisor::RunOptions whole = measured(options);
+    const Digest inputs = inputsOf(whole, rig);
+    const auto film = filmOf(part, whole);
     std::vector<std::byte> content;
     if (film) {
         if (const int status = run(*film); status != 0) return status;

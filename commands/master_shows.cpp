@@ -154,6 +154,10 @@ void showNew(const config::Rig& rig,
     show(rig, conducting, {assets.bytes, *world.made, *world.simulation}, std::move(channels));
 }
 
+Tick firstShown(const wire::Recording& recording, Tick from) {
+    return recording.beginsWithSave ? std::max(from, recording.saves.front().tick) : from;
+}
+
 void showAgain(const config::Rig& rig,
                const MasterOptions& options,
                std::unique_ptr<net::MasterChannels> channels) {
@@ -162,7 +166,7 @@ void showAgain(const config::Rig& rig,
     const wire::Recording recording = wire::readRecording(options.show.replayPath);
     for (const std::string& doubt : wire::doubtsAbout(recording))
         logWarning("{}: {}", options.show.replayPath, doubt);
-    const Tick from{options.show.replayFromTick};
+    const Tick from = firstShown(recording, Tick{options.show.replayFromTick});
     if (from > recording.lastTick())
         throw Error(options.show.replayPath + ": ends after " + timeOf(recording.lastTick()) +
                     "; begin --at an earlier time");

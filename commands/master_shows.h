@@ -51,4 +51,8 @@ void showAgain(const config::Rig& rig,
                const MasterOptions& options,
                std::unique_ptr<net::MasterChannels> channels);
 
+// The first tick that a recording can show, at or after this one: that of a journal may begin with
+// a save of a world that had lived before.
+[[nodiscard]] Tick firstShown(const wire::Recording& recording, Tick from);
+
 }  // namespace aquarama

@@ -35,9 +35,9 @@ void mergeStudy(const std::string& out, const WorkInParts& work);
 void mergeSearch(const std::string& out, const WorkInParts& work);
 void mergeClip(const std::string& out, const WorkInParts& work);
 
-// Films one part of a replay by `run`, as a clip beside the file of the part. `whole` are the
-// options of the whole film. Returns the exit status.
-[[nodiscard]] int replayPart(const supervisor::RunOptions& whole,
+// Films one part of a replay by `run`, as a clip beside the file of the part. `options` are
+// those of the whole film. Returns the exit status.
+[[nodiscard]] int replayPart(const supervisor::RunOptions& options,
                              parts::Part part,
                              int (*run)(const supervisor::RunOptions&));
 
