@@ -199,10 +199,11 @@ GroundTables groundTables(const place::PlaceKey& place) {
                                        [&] { return makeGroundTables(place); });
 }
 
-Ground::Ground(const GroundTables& tables, const gl::Replacements& replacements)
+Ground::Ground(const GroundTables& tables, const LightQuality& light)
     : patches_{tables.patches},
       levels_{tables.levels},
-      program_{gl::makeProgram({"floor.vert", "floor.frag"}, replacements)},
+      program_{light.isFine ? gl::makeProgram({"floor.vert", "floor.frag"}, replacementsOf(light))
+                            : gl::makeProgram({"floor_plain.vert", "floor_plain.frag"})},
       detail_{makeTexture(sandTile())},
       rubble_{makeTexture(rockTile())},
       shade_{makeShade(tables.shade)} {

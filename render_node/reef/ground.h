@@ -54,7 +54,7 @@ struct GroundTables {
 // Draws the sand. Owns its GL objects; construct, use and destroy it with the same context current.
 class Ground {
   public:
-    Ground(const GroundTables& tables, const gl::Replacements& replacements);
+    Ground(const GroundTables& tables, const LightQuality& light);
     // Draws the patches that the viewpoint sees. Expects the frame's uniform block and the sea's
     // light to be bound.
     void draw(const Viewpoint& viewpoint) const;

@@ -159,7 +159,7 @@ struct SceneRenderer::Parts {
           water{gl::makeProgram({"quad.vert", "water.frag"}, shaders)},
           snow{gl::makeProgram({"snow.vert", "snow.frag"}, shaders)} {
         if (bottomTables.reef.valid())
-            bottom = Bottom{Ground{bottomTables.ground.get(), shaders},
+            bottom = Bottom{Ground{bottomTables.ground.get(), quality.light},
                             Reef{bottomTables.reef.get(), quality}};
         if (bottom && quality.light.isFine) bakeShadows();
     }

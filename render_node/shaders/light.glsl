@@ -5,11 +5,14 @@
 #define LIGHT_GLSL
 #include "shading.glsl"
 
+// The lod of the caustics for what a pixel covers here: the root of its area. The longer side alone would blur the sand
+// too much, and an area does not depend on the rotation of a channel's picture.
+float causticLod(vec3 place) {
+    return log2(1.0 + sqrt(length(cross(dFdx(place), dFdy(place)))) * (256.0 / kTileMetres));
+}
+
 vec3 litUnder(Occlusion open, vec3 albedo, vec3 place, vec3 normal, float translucency) {
-    // The root of the area that a pixel covers. The longer side alone would blur the sand too much, and
-    // an area does not depend on the rotation of a channel's picture.
-    float footprint = sqrt(length(cross(dFdx(place), dFdy(place)))) * (256.0 / kTileMetres);
-    return litAt(log2(1.0 + footprint), open, albedo, place, normal, translucency);
+    return litAt(causticLod(place), open, albedo, place, normal, translucency);
 }
 
 // The light of things that swim, with the shadows of other fish.

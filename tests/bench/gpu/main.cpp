@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures a graphics card without a display: two walls, five seas, three tiers, and the golden
-// pictures. tests/bench/gpu.sh bundles it for machines that have nothing else of ours.
+// Measures a graphics card without a display: three walls, five seas, the tiers, and the golden
+// pictures; or what software OpenGL takes for the desk. tests/bench/gpu.sh bundles it for machines
+// that have nothing else of ours.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -60,8 +61,7 @@ struct Extent {
     std::uint32_t fewer = 1;   // fish
 };
 
-// Enough to see that this program works. Its figures say nothing: software draws after it has
-// answered what the time is.
+// Of walls for cards on software OpenGL: enough to see that this program works.
 constexpr Extent kTrial{.ticksBefore = 2,
                         .frames = 2,
                         .frameTimes = {.leastFrames = 2, .mostFrames = 2, .seconds = 0},
@@ -83,6 +83,8 @@ const SeaChoice kSeas[]{{"reef_1998", "reef_1998", std::nullopt},
 
 struct NamedWall {
     std::string name;
+    Extent extent;
+    std::vector<config::QualityTier> tiers;
     config::Rig rig;
     compose::PanoramaMap panorama{rig};
 };
@@ -99,11 +101,14 @@ config::Rig within(const Extent& extent, config::Rig rig) {
     return rig;
 }
 
-NamedWall wallOf(const std::string& name, const std::string& file, const Extent& extent) {
+NamedWall wallOf(const std::string& name,
+                 const std::string& file,
+                 const Extent& extent,
+                 std::vector<config::QualityTier> tiers) {
     const std::string path = test::sourceFolder() + "/" + file;
     const config::Rig rig = config::readRig(path);
     wall::checkGeometry(rig, path);
-    return {name, within(extent, rig)};
+    return {name, extent, std::move(tiers), within(extent, rig)};
 }
 
 bool isSoftware(const std::string& renderer) {
@@ -151,16 +156,19 @@ class Measurement {
   public:
     explicit Measurement(const Options& options)
         : options_{options},
-          extent_{isSoftware(renderer()) ? kTrial : Extent{}},
+          isSoftware_{isSoftware(renderer())},
           csvPath_{options.out / (bench::fileNameOf(renderer()) + ".csv")},
           csv_{openCsv()},
           rows_{csv_, gl::rendererAndVersion() + ", " + bench::processorName()} {}
 
     void measure() {
         std::printf("%s, %s\n", gl::rendererAndVersion().c_str(), bench::processorName().c_str());
+        using enum config::QualityTier;
+        const Extent ofCards = isSoftware_ ? kTrial : Extent{};
         const std::vector<NamedWall> walls{
-            wallOf("theatre", "config/theatre.txtpb", extent_),
-            wallOf("eight_4k", "tests/bench/gpu/eight_4k.txtpb", extent_)};
+            wallOf("theatre", "config/theatre.txtpb", ofCards, {Medium, High, Ultra}),
+            wallOf("eight_4k", "tests/bench/gpu/eight_4k.txtpb", ofCards, {Medium, High, Ultra}),
+            wallOf("desk", "config/desk.txtpb", {}, {Low})};
         for (const SeaChoice& choice : kSeas) measureSea(choice, walls);
         compareGolden();
         std::printf("written: %s, and pictures beside it\n", csvPath_.c_str());
@@ -182,24 +190,23 @@ class Measurement {
     }
 
     void measureSea(const SeaChoice& choice, const std::vector<NamedWall>& walls) {
-        std::optional<bench::Sea> sea;
-        for (const NamedWall& wall : walls)
-            for (const config::QualityTier tier : {config::QualityTier::Medium,
-                                                   config::QualityTier::High,
-                                                   config::QualityTier::Ultra}) {
+        for (const NamedWall& wall : walls) {
+            std::optional<bench::Sea> sea;
+            for (const config::QualityTier tier : wall.tiers) {
                 const std::string name = nameOf(wall, choice, tier);
                 if (!options_.wants(name)) continue;
-                if (!sea) sea = made(choice);
+                if (!sea) sea = made(choice, wall.extent);
                 measureWall(name, *sea, wall, tier);
             }
+        }
     }
 
-    bench::Sea made(const SeaChoice& choice) const {
-        const auto fish = choice.fish ? std::optional{*choice.fish / extent_.fewer} : std::nullopt;
+    static bench::Sea made(const SeaChoice& choice, const Extent& extent) {
+        const auto fish = choice.fish ? std::optional{*choice.fish / extent.fewer} : std::nullopt;
         return bench::makeSea(test::sourceFolder() + "/config/scenes/" + choice.scene + ".txtpb",
                               fish,
-                              extent_.ticksBefore,
-                              extent_.frames);
+                              extent.ticksBefore,
+                              extent.frames);
     }
 
     void measureWall(const std::string& name,
@@ -212,14 +219,18 @@ class Measurement {
         const std::chrono::duration<double> building = std::chrono::steady_clock::now() - start;
         rows_.counter(name, "build_s", building.count());
         writeMemory(name, free);
-        writeFrames(name, drawn.timeFrames(extent_.frameTimes));
+        writeFrames(name, drawn.timeFrames(wall.extent.frameTimes));
         writeStages(name,
-                    drawn.timeStages(extent_.stageTimes, /*withPixels=*/true),
-                    drawn.timeStages(extent_.stageTimes, /*withPixels=*/false));
+                    drawn.timeStages(wall.extent.stageTimes, clock(), /*withPixels=*/true),
+                    drawn.timeStages(wall.extent.stageTimes, clock(), /*withPixels=*/false));
         writePng((options_.out / fileOf(name)).string(),
                  pictureOf(wall.panorama.compose(drawn.lights()), 8, 0));
         refuseErrors(name);
         csv_.flush();
+    }
+
+    [[nodiscard]] bench::Clocked clock() const {
+        return isSoftware_ ? bench::Clocked::Finished : bench::Clocked::Queued;
     }
 
     void writeMemory(const std::string& name, std::optional<double> freeBefore) {
@@ -258,11 +269,22 @@ class Measurement {
             rows_.counter(row, "gpu_ms", time.gpu);
             rows_.counter(row, "gpu_vertex_ms", vertex);
             rows_.counter(row, "cpu_ms", time.cpu);
-            std::printf("    %-16s %8.3f ms, without pixels %8.3f; cpu %8.3f\n",
-                        stage.c_str(),
-                        time.gpu,
-                        vertex,
-                        time.cpu);
+            const bench::StageWork& work = time.work;
+            rows_.counter(row, "vertices", static_cast<double>(work.vertices));
+            rows_.counter(row, "primitives", static_cast<double>(work.primitives));
+            rows_.counter(row, "fragments", static_cast<double>(work.fragments));
+            rows_.counter(row, "computed", static_cast<double>(work.computed));
+            std::printf(
+                "    %-14s %8.3f ms, without pixels %8.3f; cpu %8.3f; thousands of vertices %7.1f, "
+                "triangles %7.1f, fragments %8.1f, computed %8.1f\n",
+                stage.c_str(),
+                time.gpu,
+                vertex,
+                time.cpu,
+                1e-3 * static_cast<double>(work.vertices),
+                1e-3 * static_cast<double>(work.primitives),
+                1e-3 * static_cast<double>(work.fragments),
+                1e-3 * static_cast<double>(work.computed));
         }
     }
 
@@ -299,7 +321,7 @@ class Measurement {
     }
 
     const Options& options_;
-    Extent extent_;
+    bool isSoftware_;
     fs::path csvPath_;
     std::ofstream csv_;
     bench::CsvWriter rows_;
@@ -313,7 +335,9 @@ int main(int argc, char** argv) try {
     app.add_option("--out", options.out, "folder of the figures and pictures");
     app.add_option("--only", options.only, "parts of names, as eight_4k, reef/high or golden/");
     app.add_option("--device", options.device, "auto | nvidia | mesa | surfaceless | device:N");
-    app.add_flag("--software", options.software, "draw without a card, tiny, to try this program");
+    app.add_flag("--software",
+                 options.software,
+                 "also without a card: the desk as it is, the other walls tiny");
     CLI11_PARSE(app, argc, argv);
     const Card card = openCard(options);
     if (!card.context) {

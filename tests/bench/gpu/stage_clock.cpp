@@ -32,6 +32,22 @@ double cpuMilliseconds() {
     return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
 }
 
+// The first query of a mark is of the time.
+constexpr std::array<GLenum, 4> kCounted{GL_VERTEX_SHADER_INVOCATIONS,
+                                         GL_CLIPPING_OUTPUT_PRIMITIVES,
+                                         GL_FRAGMENT_SHADER_INVOCATIONS,
+                                         GL_COMPUTE_SHADER_INVOCATIONS};
+
+std::uint64_t answerOf(unsigned query) {
+    GLuint64 answer = 0;
+    glGetQueryObjectui64v(query, GL_QUERY_RESULT, &answer);
+    return answer;
+}
+
+StageWork workOf(const std::array<unsigned, 5>& queries) {
+    return {answerOf(queries[1]), answerOf(queries[2]), answerOf(queries[3]), answerOf(queries[4])};
+}
+
 struct Pointers {
     decltype(epoxy_glPushDebugGroup) push;
     decltype(epoxy_glPopDebugGroup) pop;
@@ -40,7 +56,15 @@ Pointers drivers{};  // NOLINT(cppcoreguidelines-avoid-non-const-global-variable
 
 }  // namespace
 
-StageClock::StageClock() {
+StageWork& StageWork::operator+=(const StageWork& other) {
+    vertices += other.vertices;
+    primitives += other.primitives;
+    fragments += other.fragments;
+    computed += other.computed;
+    return *this;
+}
+
+StageClock::StageClock(Clocked clocked) : clocked_{clocked} {
     resolve();
     drivers = {epoxy_glPushDebugGroup, epoxy_glPopDebugGroup};
     running = this;
@@ -52,17 +76,27 @@ StageClock::~StageClock() {
     epoxy_glPushDebugGroup = drivers.push;
     epoxy_glPopDebugGroup = drivers.pop;
     running = nullptr;
-    glDeleteQueries(static_cast<GLsizei>(queries_.size()), queries_.data());
+    for (const auto& queries : queries_)
+        glDeleteQueries(static_cast<GLsizei>(queries.size()), queries.data());
+}
+
+void StageClock::endCounting() const {
+    if (!marks_.empty())
+        for (const GLenum counted : kCounted) glEndQuery(counted);
 }
 
 void StageClock::mark() {
+    endCounting();
+    if (clocked_ == Clocked::Finished) glFinish();
     if (marks_.size() == queries_.size()) {
-        queries_.push_back(0);
-        glCreateQueries(GL_TIMESTAMP, 1, &queries_.back());
+        auto& queries = queries_.emplace_back();
+        // Mesa's glCreateQueries() knows no pipeline statistics.
+        glGenQueries(static_cast<GLsizei>(queries.size()), queries.data());
     }
-    marks_.push_back(
-        {queries_[marks_.size()], open_.empty() ? "other" : open_.back(), cpuMilliseconds()});
-    glQueryCounter(marks_.back().query, GL_TIMESTAMP);
+    const auto& queries = queries_[marks_.size()];
+    marks_.push_back({queries, open_.empty() ? "other" : open_.back(), cpuMilliseconds()});
+    glQueryCounter(queries[0], GL_TIMESTAMP);
+    for (std::size_t i = 0; i < kCounted.size(); ++i) glBeginQuery(kCounted[i], queries.at(i + 1));
 }
 
 void StageClock::begin() {
@@ -82,17 +116,17 @@ void StageClock::leave() {
 
 std::map<std::string, StageTime> StageClock::end() {
     mark();
+    endCounting();
     std::map<std::string, StageTime> times;
-    GLuint64 before = 0;
-    for (std::size_t i = 0; i < marks_.size(); ++i) {
-        GLuint64 now = 0;
-        glGetQueryObjectui64v(marks_[i].query, GL_QUERY_RESULT, &now);
-        if (i > 0) {
-            StageTime& stage = times[marks_[i - 1].stage];
-            stage.gpu += static_cast<double>(std::max(now, before) - before) / 1e6;
-            stage.cpu += marks_[i].cpuMs - marks_[i - 1].cpuMs;
-        }
-        before = now;
+    for (std::size_t i = 0; i + 1 < marks_.size(); ++i) {
+        const Mark& here = marks_[i];
+        const Mark& next = marks_[i + 1];
+        StageTime& stage = times[here.stage];
+        const std::uint64_t before = answerOf(here.queries[0]);
+        stage.gpu +=
+            static_cast<double>(std::max(answerOf(next.queries[0]), before) - before) / 1e6;
+        stage.cpu += next.cpuMs - here.cpuMs;
+        stage.work += workOf(here.queries);
     }
     return times;
 }

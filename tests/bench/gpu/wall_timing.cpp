@@ -69,12 +69,13 @@ FrameTimes DrawnWall::timeFrames(const Patience& patience) {
     return times;
 }
 
-StageTimes DrawnWall::timeStages(const Patience& patience, bool withPixels) {
+StageTimes DrawnWall::timeStages(const Patience& patience, Clocked clocked, bool withPixels) {
     struct Samples {
         std::vector<double> gpu, cpu;
+        StageWork work;
     };
     std::map<std::string, Samples> samples;
-    StageClock clock;
+    StageClock clock{clocked};
     if (!withPixels) glEnable(GL_RASTERIZER_DISCARD);
     repeat(patience, [&](std::size_t i) {
         clock.begin();
@@ -82,12 +83,13 @@ StageTimes DrawnWall::timeStages(const Patience& patience, bool withPixels) {
         for (const auto& [stage, time] : clock.end()) {
             samples[stage].gpu.push_back(time.gpu);
             samples[stage].cpu.push_back(time.cpu);
+            samples[stage].work = time.work;
         }
     });
     glDisable(GL_RASTERIZER_DISCARD);
     StageTimes medians;
     for (const auto& [stage, of] : samples)
-        medians[stage] = {percentile(of.gpu, 0.5), percentile(of.cpu, 0.5)};
+        medians[stage] = {percentile(of.gpu, 0.5), percentile(of.cpu, 0.5), of.work};
     return medians;
 }
 

@@ -39,7 +39,7 @@ class DrawnWall {
 
     [[nodiscard]] FrameTimes timeFrames(const Patience& patience);
     // Without pixels: with the rasterizer off, which leaves computation and vertices.
-    [[nodiscard]] StageTimes timeStages(const Patience& patience, bool withPixels);
+    [[nodiscard]] StageTimes timeStages(const Patience& patience, Clocked clocked, bool withPixels);
     // What each channel projects of the first frame, as light.
     [[nodiscard]] std::vector<Light> lights();
 
