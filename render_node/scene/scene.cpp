@@ -314,4 +314,8 @@ unsigned SceneRenderer::draw(const View& view) {
     return parts.picture.finish(view.finer > 1);
 }
 
+surface::SurfaceCounts SceneRenderer::fishCounts() const {
+    return parts_->school.counts();
+}
+
 }  // namespace aquarama::scene

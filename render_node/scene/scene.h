@@ -99,6 +99,9 @@ class SceneRenderer {
     // GL name; valid until the next draw.
     unsigned draw(const View& view);
 
+    // Of the fish of the last draw(): SchoolSurface::counts().
+    [[nodiscard]] surface::SurfaceCounts fishCounts() const;
+
   private:
     struct Parts;
     std::unique_ptr<Parts> parts_;

@@ -7,6 +7,7 @@
 
 layout(local_size_x = 1) in;
 layout(location = kSpeciesCountLocation) uniform uint speciesCount;
+layout(location = kTurnCountLocation) uniform uint turnCount;
 layout(location = kRoomVerticesLocation) uniform uint roomVertices;  // of the surface buffer
 
 const uint kPointIndices = 12u;
@@ -21,7 +22,7 @@ Command finsOf(Mesh mesh, uint fish, uint first) {
 }
 
 void clear() {
-    for (uint t = 0u; t < kTurns; ++t) {
+    for (uint t = 0u; t < turnCount; ++t) {
         turns[bodyGroupsOf(t)] = turns[finGroupsOf(t)] = turns[firstFishOf(t)] = 0u;
         turns[bodyGroupsOf(t) + 1u] = turns[bodyGroupsOf(t) + 2u] = 1u;
         turns[finGroupsOf(t) + 1u] = turns[finGroupsOf(t) + 2u] = 1u;
@@ -50,7 +51,7 @@ void setCommands(uint bodies, uint fins, Mesh mesh, uint own, uint fish, uint fi
 void place(uint species, uint surface, uint first, uint own, uint fish) {
     Mesh mesh = kinds[species].meshes[1u + surface];
     uint placed = 0u;
-    while (placed < fish && turn < kTurns) {
+    while (placed < fish && turn < turnCount) {
         uint now = min(fish - placed, (roomVertices - usedVertices) / mesh.vertexCount);
         if (now > 0u) {
             uint at = (turn * kMostSpecies + species) * kSurfaces + surface;
@@ -104,6 +105,6 @@ void main() {
     for (uint species = 0u; species < speciesCount; ++species)
         for (uint worn = 0u; worn < 2u; ++worn) first = placeTail(species, worn, first);
     // A surface that is still in the buffer when fins are drawn need not be evaluated again.
-    for (uint t = 0u; turns[bodyGroupsOf(1u)] > 0u && t < kTurns; ++t)
+    for (uint t = 0u; turnCount > 1u && turns[bodyGroupsOf(1u)] > 0u && t < turnCount; ++t)
         turns[finGroupsOf(t)] = turns[bodyGroupsOf(t)];
 }

@@ -13,7 +13,7 @@ struct Command {  // as glDrawElementsIndirect takes it
 struct Piece {
     uint firstFish, fish, firstVertex;
 };
-const uint kPieces = kTurns * kMostSpecies * kSurfaces;  // [turn][species][surface]
+const uint kPieces = kMostTurns * kMostSpecies * kSurfaces;  // [turn][species][surface]
 const uint kCommands = 2u * kPieces + kMostSpecies * kTails;
 
 // All arrays are of plain numbers: of an array of structures a driver keeps a record for each
@@ -21,7 +21,7 @@ const uint kCommands = 2u * kPieces + kMostSpecies * kTails;
 layout(std430, binding = kPlanStorage) buffer Plan {
     uint totals[kMostSpecies * kDetailStride];  // fish, [species][list]
     uint firsts[kMostSpecies * kDetailStride];  // the place of each list's first
-    uint turns[kTurns * 8u];              // see bodyGroupsOf(), finGroupsOf(), firstFishOf()
+    uint turns[kMostTurns * 8u];              // see bodyGroupsOf(), finGroupsOf(), firstFishOf()
     uint pieces[kPieces * 3u];
     uint commands[2u * kCommands * 5u];  // see setCommand(); of fish in their own skins, then in drawings
 };

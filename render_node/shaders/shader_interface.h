@@ -97,6 +97,7 @@ AQUARAMA_CONSTANT int kTurnLocation = 18;
 AQUARAMA_CONSTANT int kSpeciesCountLocation = 18;
 AQUARAMA_CONSTANT int kRoomVerticesLocation = 19;
 AQUARAMA_CONSTANT int kDrawnSpeciesLocation = 20;
+AQUARAMA_CONSTANT int kTurnCountLocation = 21;
 
 // Locations of uniforms: what grows, and rock.
 AQUARAMA_CONSTANT int kReachLocation = 0;
@@ -170,7 +171,7 @@ AQUARAMA_CONSTANT uint kMostDrawn = 256U;
 
 // The plan of a view's fish.
 AQUARAMA_CONSTANT uint kMostSpecies = 64U;
-AQUARAMA_CONSTANT uint kTurns = 8U;     // of the surface buffer
+AQUARAMA_CONSTANT uint kMostTurns = 40U;  // of the surface buffer
 AQUARAMA_CONSTANT uint kSurfaces = 4U;  // levels of detail that have a surface
 AQUARAMA_CONSTANT uint kMeshes =
     1U + kSurfaces;  // few triangles, then the surfaces from coarse to fine

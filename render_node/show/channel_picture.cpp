@@ -102,7 +102,8 @@ ChannelPicture::Viewing::Viewing(const wall::ChannelFrustum& from,
 ChannelPicture::ChannelPicture(const session::Admission& admission,
                                std::size_t channel,
                                config::QualityTier quality,
-                               std::shared_ptr<const wall::Wall> wall)
+                               std::shared_ptr<const wall::Wall> wall,
+                               bool savesWork)
     : stereo_{wall::stereoOf(admission.rig, channel)},
       school_{admission.school},
       day_{admission.scene.day},
@@ -137,7 +138,9 @@ ChannelPicture::ChannelPicture(const session::Admission& admission,
                                 .water = admission.scene.water.jerlov,
                                 .current = admission.scene.current,
                                 .quality = quality,
-                                .pixelRadians = static_cast<float>(wall->finestPixelRadians())},
+                                .pixelRadians = static_cast<float>(wall->finestPixelRadians()),
+                                .culling = savesWork,
+                                .levelsOfDetail = savesWork},
             castOf(admission));
 }
 

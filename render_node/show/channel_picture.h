@@ -69,11 +69,13 @@ class ChannelPicture {
   public:
     // channel: index in admission.rig.channels. Throws Error: the channel does not aim at the
     // screen, a driver that cannot draw what is needed.
-    // wall: of admission.rig; null: made here.
+    // wall: of admission.rig; null: made here. savesWork: false draws all that is in the world, at
+    // its finest, to measure what culling and levels of detail save.
     ChannelPicture(const session::Admission& admission,
                    std::size_t channel,
                    config::QualityTier quality,
-                   std::shared_ptr<const wall::Wall> wall = nullptr);
+                   std::shared_ptr<const wall::Wall> wall = nullptr,
+                   bool savesWork = true);
 
     // Drawings of visitors that fish wear in the frames that follow: SchoolSurface::wear().
     void wear(const body::SkinsByNumber& skins, std::size_t most);

@@ -31,7 +31,9 @@ namespace aquarama::surface {
 // room for 78 000 control meshes, or 19 000 meshes, or 4 900 heroes; heroes are placed first. Fish
 // for which no room is left are drawn as few triangles. That needs a school denser than one fish in
 // each cube of its length.
-inline constexpr std::size_t kTurns = shaders::kTurns;
+inline constexpr std::size_t kTurns = 8;
+// Without levels of detail, where all fish are heroes: room for 24 000.
+inline constexpr std::size_t kMostTurns = shaders::kMostTurns;
 inline constexpr std::size_t kDetailStride = shaders::kDetailStride;
 inline constexpr std::size_t kSurfaces = shaders::kSurfaces;
 // Few triangles, then one mesh for each level that has a surface.
@@ -59,12 +61,12 @@ struct FishPlan {
         std::uint32_t firstFish, padding;
     };
     template <class T>
-    using EachPiece = std::array<std::array<std::array<T, kSurfaces>, kMostSpecies>, kTurns>;
+    using EachPiece = std::array<std::array<std::array<T, kSurfaces>, kMostSpecies>, kMostTurns>;
 
     // By species and list: how many fish a view shows, and the index of the first of them among
     // the drawn fish.
     std::array<std::array<std::uint32_t, kDetailStride>, kMostSpecies> totals, firsts;
-    std::array<Turn, kTurns> turns;
+    std::array<Turn, kMostTurns> turns;
     EachPiece<Piece> pieces;
     // Draws of fish in their own skins, and of those that wear drawings.
     struct Draws {

@@ -245,7 +245,9 @@ void SchoolSurface::Parts::makeBuffers() {
     assert(most > 0);
     const std::size_t wanted = std::max<std::size_t>(fish, 1) * tables.mostVertices;
     const std::size_t room = std::min(most, wanted);
-    turns = std::min(kTurns, (wanted + most - 1) / most);
+    const std::size_t heroesATurn = std::max<std::size_t>(room / tables.mostVertices, 1);
+    turns = std::clamp<std::size_t>(
+        (fish + heroesATurn - 1) / heroesATurn, 1, options.levelsOfDetail ? kTurns : kMostTurns);
     choices = gl::makeBuffer(fish * sizeof(std::uint32_t), "fish choices");
     counts = gl::makeBuffer(tables.groups * kDetailStride * sizeof(std::uint32_t), "fish counts");
     plan = gl::makeBuffer(sizeof(FishPlan), "fish plan");
@@ -253,6 +255,8 @@ void SchoolSurface::Parts::makeBuffers() {
     surface = gl::makeBuffer(room * kBytesPerVertex, "fish surfaces");
     slots = gl::makeBuffer(upTo(fish), "places in the school");
     glProgramUniform1ui(planner.name(), shaders::kRoomVerticesLocation, static_cast<GLuint>(room));
+    for (const unsigned program : {planner.name(), scatter.name()})
+        glProgramUniform1ui(program, shaders::kTurnCountLocation, static_cast<GLuint>(turns));
 }
 
 void SchoolSurface::Parts::makeVertexArrays() const {
@@ -529,6 +533,12 @@ SurfaceCounts SchoolSurface::counts() const {
         for (std::size_t level = 0; level < kDetailLevels; ++level)
             counts.atLevel.at(level) +=
                 totals.at(s).at(level) + totals.at(s).at(level + shaders::kDrawnLists);
+    FishPlan::Draws draws[2];
+    glGetNamedBufferSubData(parts_->plan.name(), offsetof(FishPlan, own), sizeof(draws), &draws);
+    for (const FishPlan::Draws& worn : draws)
+        for (std::size_t s = 0; s < parts_->species.size(); ++s)
+            for (std::size_t surface = 0; surface < kSurfaces; ++surface)
+                counts.withoutRoom += worn.tails.at(s).at(1 + surface).instances;
     counts.visible = std::accumulate(counts.atLevel.begin(), counts.atLevel.end(), std::size_t{0});
     return counts;
 }

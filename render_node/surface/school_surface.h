@@ -111,6 +111,9 @@ static_assert(sizeof(DrawnFish) == 96);
 struct SurfaceCounts {
     std::size_t visible = 0;
     std::array<std::size_t, kDetailLevels> atLevel{};
+    // Of those at levels that have a surface: for these the buffer had no room, and they are drawn
+    // as few triangles.
+    std::size_t withoutRoom = 0;
 };
 
 struct SkinPrograms;
