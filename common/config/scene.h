@@ -148,6 +148,8 @@ struct Scene {
     std::uint32_t plankton = 300;  // particles; eaten ones drift in again
     std::vector<Head> heads;
     std::vector<SiteGroup> sites;
+    // So many reefs stand side by side in the water, and behind one another; not in files.
+    glm::uvec2 reefs{1, 1};
     SceneCurrent current;
     double livedSeconds = 0;  // of the world, unseen, before a show begins
     Day day;

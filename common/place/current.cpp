@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstddef>
+#include <iterator>
 
 namespace aquarama::place {
 
@@ -14,6 +16,8 @@ constexpr float kCellMetres = 0.5F;
 // The crown's effect ends this far above it; the lee ends this far behind a boulder.
 constexpr float kCrownMetres = 1.0F;
 constexpr float kLeeMetres = 1.0F;
+// Across the tide a boulder bends the current within this many of its radii.
+constexpr float kWidestRadii = 1.2F;
 
 std::int64_t ticksOf(double seconds) {
     return static_cast<std::int64_t>(seconds * static_cast<double>(kTicksPerSecond));
@@ -40,12 +44,14 @@ float ramp(float from, float to, float at) {
 // The factor at a place by one boulder, with the tide towards `way`, 1 or -1, along x.
 void bend(const Rock& rock, glm::vec3 place, float way, float& crown, float& lee) {
     const glm::vec3 from = place - rock.centre;
+    if (std::abs(from.x) > kWidestRadii * rock.radiusMetres + kLeeMetres) return;
     const float across = std::sqrt(from.x * from.x + from.z * from.z);
     const float above = from.y - rock.radiusMetres;
     // Over the crown: fully at it, falling with the height and beside it.
     if (above > -0.5F * rock.radiusMetres) {
-        const float share = (1 - ramp(0, kCrownMetres, above)) *
-                            (1 - ramp(0.6F * rock.radiusMetres, 1.2F * rock.radiusMetres, across));
+        const float share =
+            (1 - ramp(0, kCrownMetres, above)) *
+            (1 - ramp(0.6F * rock.radiusMetres, kWidestRadii * rock.radiusMetres, across));
         crown = std::max(crown, 1 + (kOverCrown - 1) * share);
     }
     // Behind it, as wide and as high as the boulder.
@@ -53,8 +59,9 @@ void bend(const Rock& rock, glm::vec3 place, float way, float& crown, float& lee
     if (behind <= 0 || above > 0) return;
     const float aside =
         std::sqrt(from.z * from.z + std::max(0.0F, from.y) * std::max(0.0F, from.y));
-    const float share = (1 - ramp(0.7F * rock.radiusMetres, 1.2F * rock.radiusMetres, aside)) *
-                        (1 - ramp(rock.radiusMetres, rock.radiusMetres + kLeeMetres, behind));
+    const float share =
+        (1 - ramp(0.7F * rock.radiusMetres, kWidestRadii * rock.radiusMetres, aside)) *
+        (1 - ramp(rock.radiusMetres, rock.radiusMetres + kLeeMetres, behind));
     lee = std::min(lee, 1 - (1 - kInLee) * share);
 }
 
@@ -85,19 +92,27 @@ Current::Current(const config::SceneCurrent& current,
     countX_ = corners(water.halfExtent.x);
     countY_ = corners(water.halfExtent.y);
     countZ_ = corners(water.halfExtent.z);
-    for (int z = 0; z < countZ_; ++z)
+    const auto cornerAt = [&](int x, int y, int z) {
+        return origin_ +
+               glm::vec3{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)} *
+                   kCellMetres;
+    };
+    std::vector<Rock> near;
+    for (int z = 0; z < countZ_; ++z) {
+        const float rowZ = cornerAt(0, 0, z).z;
+        near.clear();
+        std::ranges::copy_if(rocks, std::back_inserter(near), [&](const Rock& rock) {
+            return std::abs(rock.centre.z - rowZ) <= kWidestRadii * rock.radiusMetres;
+        });
         for (int y = 0; y < countY_; ++y)
             for (int x = 0; x < countX_; ++x)
                 for (const float way : {1.0F, -1.0F}) {
-                    const glm::vec3 place = origin_ + glm::vec3{static_cast<float>(x),
-                                                                static_cast<float>(y),
-                                                                static_cast<float>(z)} *
-                                                          kCellMetres;
                     float crown = 1;
                     float lee = 1;
-                    for (const Rock& rock : rocks) bend(rock, place, way, crown, lee);
+                    for (const Rock& rock : near) bend(rock, cornerAt(x, y, z), way, crown, lee);
                     factors_.push_back(crown * lee);
                 }
+    }
 }
 
 glm::vec3 Current::at(glm::vec3 position, glm::vec3 open) const {

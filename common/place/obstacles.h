@@ -3,6 +3,7 @@
 // grid, so that a fish looks them up instead of computing them. World frame, metres.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -88,6 +89,17 @@ struct Obstacles {
     // tested.
     Chart chart = {};
 };
+// Whether test(rock) holds for a rock about a place (x, z). Tests at least all rocks that come
+// within kChartReachMetres of it; by the chart no others than those listed there.
+template <class Test>
+[[nodiscard]] bool anyRockNear(const Obstacles& obstacles, glm::vec2 xz, const Test& test) {
+    if (!obstacles.chart.covers(xz)) return std::ranges::any_of(obstacles.rocks, test);
+    for (const std::uint32_t i : obstacles.chart.near(xz)) {
+        if (i >= obstacles.rocks.size()) break;  // stems come last
+        if (test(obstacles.rocks[i])) return true;
+    }
+    return false;
+}
 // Gathers the obstacles of a place in the given water and charts them.
 [[nodiscard]] Obstacles obstaclesOf(const PlaceKey& place, const Region& water);
 

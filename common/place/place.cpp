@@ -11,6 +11,7 @@
 #include "common/base/hash.h"
 #include "common/base/log.h"
 #include "common/base/random_streams.h"
+#include "common/place/reefs.h"
 
 namespace aquarama::place {
 
@@ -418,6 +419,7 @@ float fractalNoise(std::uint32_t seed, glm::vec2 place, int octaves) {
 
 float floorHeight(const PlaceKey& place, glm::vec2 xz) {
     if (place.kind == config::PlaceKind::OpenSea) return -kOpenSeaFloorDepthMetres;
+    xz = inFirstReef(place, xz);
     // Two scales: long dunes of 14 m and hummocks of 3 m.
     const glm::vec2 dunes{xz.x * 0.07F, xz.y * 0.07F};
     const glm::vec2 hummocks{xz.x * 0.33F, xz.y * 0.33F};
@@ -434,12 +436,16 @@ std::vector<Rock> rocksOf(const PlaceKey& place) {
     addArch(rocks, place);
     addRing(rocks, place);
     for (std::uint32_t i = 0; i < place.heads.size(); ++i) addHead(rocks, place, i);
-    return rocks;
+    return inAllReefs(place, rocks);
 }
 
 PlaceKey placeOf(const config::Scene& scene, std::uint32_t seed) {
-    return {
-        seed, scene.place, scene.heads, scene.sites, {scene.water.centre, scene.water.halfExtent}};
+    return {seed,
+            scene.place,
+            scene.heads,
+            scene.sites,
+            {scene.water.centre, scene.water.halfExtent},
+            scene.reefs};
 }
 
 std::vector<Plant> plantsOf(const PlaceKey& place) {

@@ -105,6 +105,8 @@ struct PlaceKey {
     std::vector<config::Head> heads = {};
     std::vector<config::SiteGroup> sites = {};
     Region settled = {};
+    // As Scene::reefs (reefs.h).
+    glm::uvec2 reefs{1, 1};
     friend bool operator==(const PlaceKey&, const PlaceKey&) = default;
 };
 // The place of a scene.

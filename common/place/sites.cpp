@@ -9,6 +9,7 @@
 #include <span>
 
 #include "common/base/random_streams.h"
+#include "common/place/reefs.h"
 
 namespace aquarama::place {
 
@@ -67,9 +68,7 @@ class Settling {
   public:
     explicit Settling(const PlaceKey& place) : place_(place), rocks_(rocksOf(place)) {
         for (const Rock& rock : rocks_) {
-            const glm::vec3 from = rock.centre - place.settled.centre;
-            const glm::vec3 reach = place.settled.halfExtent + glm::vec3{0.5F * rock.radiusMetres};
-            if (std::abs(from.x) >= reach.x || std::abs(from.z) >= reach.z) continue;
+            if (!reachesInto(place.settled, rock)) continue;
             hosts_.push_back(rock);
             area_ += rock.radiusMetres * rock.radiusMetres;
         }
@@ -194,7 +193,8 @@ bool isGrazed(const Region& water, glm::vec3 place) {
 
 std::vector<Site> sitesOf(const PlaceKey& place) {
     if (place.sites.empty()) return {};
-    Settling settling(place);
+    const PlaceKey first = firstReefOf(place);
+    Settling settling(first);
     const std::uint32_t seed = hashOf(place.seed, Stream::Sites);
     for (std::uint32_t group = 0; group < place.sites.size(); ++group) {
         const config::SiteGroup& sites = place.sites[group];
@@ -203,7 +203,7 @@ std::vector<Site> sitesOf(const PlaceKey& place) {
             sites.xz ? settling.settleAt(sites.kind, *sites.xz, hashOf(own, i))
                      : settling.settle(sites.kind, hashOf(own, i));
     }
-    return std::move(settling).take();
+    return inAllReefs(place, std::move(settling).take());
 }
 
 }  // namespace aquarama::place

@@ -62,9 +62,9 @@ bool isWithin(const place::Region& water, glm::vec3 place) {
            std::abs(from.z) < water.halfExtent.z;
 }
 
-// O(rocks).
 bool isClear(const place::Obstacles& obstacles, glm::vec3 place) {
-    return std::ranges::none_of(obstacles.rocks, [&](const place::Rock& rock) {
+    static_assert(kRockRoomMetres <= place::kChartReachMetres);
+    return !place::anyRockNear(obstacles, {place.x, place.z}, [&](const place::Rock& rock) {
         return place::lengthOf(place - rock.centre) < rock.radiusMetres + kRockRoomMetres;
     });
 }

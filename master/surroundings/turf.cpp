@@ -24,7 +24,7 @@ constexpr std::uint32_t kTries = 12;
 bool isClear(const place::Obstacles& obstacles, const place::Rock& own, glm::vec3 spot) {
     if (spot.y < place::floorHeight(obstacles.place, {spot.x, spot.z}) + kOverSandMetres)
         return false;
-    return std::ranges::none_of(obstacles.rocks, [&](const place::Rock& other) {
+    return !place::anyRockNear(obstacles, {spot.x, spot.z}, [&](const place::Rock& other) {
         return other.seed != own.seed &&
                place::lengthOf(other.centre - spot) < kClearRadii * other.radiusMetres;
     });
