@@ -213,6 +213,13 @@ void Grids::expect(const fish::FishView& view,
     expect(large, kLarges, big);
 }
 
+void Grids::know(const surroundings::Surroundings& surroundings) {
+    const std::vector<place::Site>& all = surroundings.sites;
+    const std::vector<surroundings::TurfPatch>& patches = surroundings.turf.patches;
+    sites.take(water_, all.size(), [&](std::uint32_t i) { return all[i].place; });
+    turf.take(water_, patches.size(), [&](std::uint32_t i) { return patches[i].place; });
+}
+
 void Grids::mark(const fish::FishView& view,
                  std::span<const fish::SpeciesParameters> speciesParameters,
                  std::size_t first,

@@ -14,6 +14,7 @@
 #include "common/place/place.h"
 #include "master/fish/fish_view.h"
 #include "master/surroundings/food.h"
+#include "master/surroundings/surroundings.h"
 
 namespace aquarama::behaviour {
 
@@ -162,7 +163,10 @@ class SpatialGrid {
             if (slots.first < slots.last) visit(candidates(slots));
         };
         row(centre.y, centre.z);
-        const int cells = 1 + static_cast<int>(layout_.inCells(std::sqrt(reachSquared)));
+        // From any cell the farthest is not so far.
+        const auto across = static_cast<float>(std::max(most.y, most.z));
+        const int cells =
+            1 + static_cast<int>(std::min(across, layout_.inCells(std::sqrt(reachSquared))));
         for (int ring = 1; ring <= cells; ++ring) {
             const float nearest = static_cast<float>(ring - 1) * cellMetres();
             if (nearest * nearest > reachSquared * kSlack) return;  // enough was found
@@ -293,6 +297,46 @@ class KindsAbout {
     std::vector<std::uint64_t> kindsOfBlock_;  // a bit for each kind
 };
 
+// A grid of places that do not move, by their index. While none were taken, all are visited: the
+// reference for tests.
+class PlacesKnown {
+  public:
+    // Keeps a grid of so many places, of which placeOf(i) is the i-th, in this water.
+    template <class PlaceOf>
+    void take(const place::Region& water, std::size_t count, const PlaceOf& placeOf) {
+        std::vector<glm::vec3> places;
+        std::vector<std::uint32_t> all;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            places.push_back(placeOf(i));
+            all.push_back(i);
+        }
+        grid_ = {water, kCellMetres, count, 4 * count};
+        if (count == 0) return;
+        const glm::vec3& first = places.front();
+        grid_.rebuild({&first.x, &first.y, &first.z, count, 3}, all);
+    }
+    // Calls visit(i) for the places [0, count) that may be within sqrt(reachSquared) of a point,
+    // roughly from there outwards. The visitor may lower reachSquared.
+    template <class Visit>
+    void visit(glm::vec3 point,
+               const float& reachSquared,
+               std::size_t count,
+               const Visit& visit) const {
+        if (grid_.size() != count) {
+            for (std::uint32_t i = 0; i < count; ++i) visit(i);
+            return;
+        }
+        grid_.visitAround(point, reachSquared, [&](const SpatialGrid::Candidates& row) {
+            for (const std::uint32_t i : row.index) visit(i);
+        });
+    }
+
+  private:
+    static constexpr float kCellMetres = 2.0F;
+
+    SpatialGrid grid_{{}, kCellMetres, 0, 1};
+};
+
 // A fish of this length or more is a large body: it hides others and is felt from afar.
 inline constexpr float kLargeBodyMetres = 0.6F;
 
@@ -309,6 +353,8 @@ class Grids {
     void expect(const fish::FishView& view,
                 std::span<const fish::SpeciesParameters> speciesParameters);
 
+    // Makes grids of what does not move in these surroundings.
+    void know(const surroundings::Surroundings& surroundings);
     // Rebuilds all grids from the fish and the food that are there. Allocates nothing after
     // expect().
     void rebuild(const fish::FishView& view,
@@ -361,6 +407,9 @@ class Grids {
     SpatialGrid large;
     SpatialGrid mates;
     SpatialGrid food;
+    // Of the surroundings: their sites and patches of turf.
+    PlacesKnown sites;
+    PlacesKnown turf;
 
   private:
     // Marks of each fish: by them the sparse grids are filled.

@@ -81,7 +81,9 @@ std::uint32_t chosenPatch(const Environment& environment,
                                        static_cast<std::uint32_t>(environment.tick.value));
     std::uint32_t best = 0;
     float most = -std::numeric_limits<float>::infinity();
-    for (std::uint32_t patch = 0; patch < turf.patches.size(); ++patch) {
+    // Once one is in its range, those out of it are worth less.
+    float reachSquared = std::numeric_limits<float>::infinity();
+    const auto weigh = [&](std::uint32_t patch) {
         const glm::vec3 place = turf.patches[patch].place;
         const float away = awayFromHome(parameters, fish, place);
         const float fill = turf.shareOf(patch);
@@ -90,10 +92,13 @@ std::uint32_t chosenPatch(const Environment& environment,
         if (patch == present) value = 0;
         // None within its range: the one nearest to its home.
         if (away > range) value = -away;
-        if (value <= most) continue;
+        reachSquared = std::min(reachSquared, std::max(away, range) * std::max(away, range));
+        if (value < most || (value == most && patch > best)) return;
         most = value;
         best = patch;
-    }
+    };
+    const glm::vec3 from = parameters.homes.empty() ? senses.position : homeOf(parameters, fish);
+    environment.grids->turf.visit(from, reachSquared, turf.patches.size(), weigh);
     return best;
 }
 
@@ -165,8 +170,10 @@ Loop loopOf(const surroundings::Turf& turf, std::uint32_t seed, std::uint32_t fi
         float farthest = -1;
         for (std::uint32_t patch = 0; patch < patches; ++patch) {
             float nearest = std::numeric_limits<float>::infinity();
-            for (const std::uint32_t other : loop.all())
+            for (const std::uint32_t other : loop.all()) {
                 nearest = std::min(nearest, apart(patch, other));
+                if (nearest <= farthest) break;
+            }
             if (nearest <= farthest) continue;
             farthest = nearest;
             best = patch;

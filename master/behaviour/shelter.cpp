@@ -96,21 +96,26 @@ bool isFitShelter(const Onlooker& onlooker, const place::Site& site) {
            isInReach(onlooker.environment.surroundings->obstacles.water, site.place);
 }
 
-// The shelter of least way.
+// The shelter of least way; of equally far ones the first.
 Sighting nearestShelter(const Onlooker& onlooker) {
     const std::vector<place::Site>& sites = onlooker.environment.surroundings->sites;
     const ShelterRange range = shelterRangeOf(onlooker);
     float least = range.metres;
-    Sighting nearest;
-    for (std::uint32_t site = 0; site < sites.size(); ++site) {
-        if (!isFitShelter(onlooker, sites[site])) continue;
+    float leastSquared = least * least;
+    std::uint32_t nearest = fish::kNobody;
+    const auto weigh = [&](std::uint32_t site) {
+        if (!isFitShelter(onlooker, sites[site])) return;
         const float cost = place::lengthOf(sites[site].place - range.from) *
                            (1 + kOwnTaste * unitOf(hashOf(sites[site].seed, onlooker.fish)));
-        if (cost >= least) continue;
+        // Nobody is the highest index; a shelter at the limit is too far.
+        const bool isFirst = cost == least && least < range.metres && site < nearest;
+        if (cost >= least && !isFirst) return;
         least = cost;
-        nearest = siteFrom(onlooker, site);
-    }
-    return nearest;
+        leastSquared = cost * cost;
+        nearest = site;
+    };
+    onlooker.environment.grids->sites.visit(range.from, leastSquared, sites.size(), weigh);
+    return nearest == fish::kNobody ? Sighting{} : siteFrom(onlooker, nearest);
 }
 
 }  // namespace

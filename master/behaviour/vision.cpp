@@ -23,9 +23,26 @@ constexpr float kBetweenCornersMetres = 0.05F;
 constexpr std::array kTrunk{0.2F, -0.05F, -0.3F};
 constexpr float kTrunkRadius = 0.1F;
 
+// A chart lists for each place the rocks that come within kChartReachMetres of it: those on a line
+// stand near one of its places, where these are no farther apart than this.
+constexpr float kBetweenPlacesMetres = 2 * place::kChartReachMetres;
+// A rock whose top is so far below a line does not hide it: more than rounding can take off.
+constexpr float kBelowMetres = 0.01F;
+
 bool rocksHide(const place::Obstacles& obstacles, const SightLine& ray) {
-    for (const place::Rock& rock : obstacles.rocks)
-        if (ray.passes(rock.centre, rock.radiusMetres * kSolidRock)) return true;
+    const float lowest = std::min(ray.from.y, ray.from.y + ray.offset.y) - kBelowMetres;
+    const auto hides = [&](const place::Rock& rock) {
+        const float radius = rock.radiusMetres * kSolidRock;
+        return rock.centre.y + radius > lowest && ray.passes(rock.centre, radius);
+    };
+    const glm::vec2 from{ray.from.x, ray.from.z};
+    const glm::vec2 along{ray.offset.x, ray.offset.z};
+    const float metres = std::sqrt(along.x * along.x + along.y * along.y);
+    const auto parts = static_cast<int>(metres / kBetweenPlacesMetres) + 1;
+    for (int part = 0; part < parts; ++part) {
+        const float share = (static_cast<float>(part) + 0.5F) / static_cast<float>(parts);
+        if (place::anyRockNear(obstacles, from + along * share, hides)) return true;
+    }
     return false;
 }
 

@@ -49,7 +49,8 @@ glm::vec3 placeDrawn(const place::Obstacles& obstacles, std::uint32_t hash) {
 }
 
 bool isClear(const place::Obstacles& obstacles, glm::vec3 place) {
-    return std::ranges::none_of(obstacles.rocks, [&](const place::Rock& rock) {
+    static_assert(kRockRoomMetres <= place::kChartReachMetres);
+    return !place::anyRockNear(obstacles, {place.x, place.z}, [&](const place::Rock& rock) {
         return place::lengthOf(place - rock.centre) < rock.radiusMetres + kRockRoomMetres;
     });
 }
@@ -195,6 +196,7 @@ World::World(const WorldOptions& options)
                     " species: there is room for " + std::to_string(kMostSpecies));
     columns_.wearers.mayBeEaten = options.drawingsMayBeEaten;
     for (const WorldSpecies& species : options.cast) addKind(species, options.cast);
+    grids_.know(surroundings_);
     meals_ = makeMeals(columns_.traits.size());
     absences_ = makeAbsences(speciesParameters_);
     makeRoomForEvents();
