@@ -36,6 +36,7 @@ glm::vec3 contactVelocity(const Obstacles& obstacles, glm::vec3 position, float 
     if (!obstacles.chart.covers(xz)) return velocity;
     const float clear = halfWidthMetres + kClearMetres;
     velocity.y = speedAt(obstacles.chart.sand(xz) + clear - position.y);
+    if (position.y > obstacles.chart.highestNear(xz) + clear) return velocity;
     for (const std::uint32_t i : obstacles.chart.near(xz)) {
         if (i >= obstacles.rocks.size()) break;  // stems come last
         const Rock& rock = obstacles.rocks[i];

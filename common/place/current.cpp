@@ -113,6 +113,21 @@ Current::Current(const config::SceneCurrent& current,
                     factors_.push_back(crown * lee);
                 }
     }
+    isOpen_.resize(factors_.size() / 2);
+    for (int z = 0; z + 1 < countZ_; ++z)
+        for (int y = 0; y + 1 < countY_; ++y)
+            for (int x = 0; x + 1 < countX_; ++x)
+                isOpen_[indexOf(x, y, z)] = isOpenFrom(x, y, z) ? 1 : 0;
+}
+
+bool Current::isOpenFrom(int x, int y, int z) const {
+    for (const int dz : {0, 1})
+        for (const int dy : {0, 1})
+            for (const int dx : {0, 1}) {
+                const std::size_t corner = indexOf(x + dx, y + dy, z + dz);
+                if (factors_[2 * corner] != 1 || factors_[2 * corner + 1] != 1) return false;
+            }
+    return true;
 }
 
 glm::vec3 Current::at(glm::vec3 position, glm::vec3 open) const {
@@ -127,14 +142,13 @@ glm::vec3 Current::at(glm::vec3 position, glm::vec3 open) const {
     const int atX = static_cast<int>(x);
     const int atY = static_cast<int>(y);
     const int atZ = static_cast<int>(z);
+    if (isOpen_[indexOf(atX, atY, atZ)] != 0) return open;
     const float u = x - static_cast<float>(atX);
     const float v = y - static_cast<float>(atY);
     const float w = z - static_cast<float>(atZ);
     const std::size_t side = open.x < 0 ? 1 : 0;
     const auto corner = [&](int dx, int dy, int dz) {
-        const auto index =
-            static_cast<std::size_t>(((atZ + dz) * countY_ + atY + dy) * countX_ + atX + dx);
-        return factors_[2 * index + side];
+        return factors_[2 * indexOf(atX + dx, atY + dy, atZ + dz) + side];
     };
     const auto along = [&](int dy, int dz) {
         return corner(0, dy, dz) + (corner(1, dy, dz) - corner(0, dy, dz)) * u;

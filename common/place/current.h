@@ -59,6 +59,12 @@ class Current {
     glm::vec3 origin_{};
     int countX_ = 0, countY_ = 0, countZ_ = 0;
     std::vector<float> factors_;
+    // Of each corner whether all factors of the cell that begins there are 1, as most are.
+    std::vector<std::uint8_t> isOpen_;
+    [[nodiscard]] bool isOpenFrom(int x, int y, int z) const;
+    [[nodiscard]] std::size_t indexOf(int x, int y, int z) const {
+        return static_cast<std::size_t>((z * countY_ + y) * countX_ + x);
+    }
 };
 
 }  // namespace aquarama::place

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 
 namespace aquarama::place {
 
@@ -49,9 +50,11 @@ std::vector<Stem> stemsIn(const PlaceKey& key, const Region& water) {
 Chart chartOf(const Obstacles& obstacles) {
     std::vector<Chart::Footprint> footprints;
     for (const Rock& rock : obstacles.rocks)
-        footprints.push_back(
-            {{rock.centre.x, rock.centre.z}, rock.radiusMetres + kRockReachMetres});
-    for (const Stem& stem : obstacles.stems) footprints.push_back({stem.foot, kStemReachMetres});
+        footprints.push_back({{rock.centre.x, rock.centre.z},
+                              rock.radiusMetres + kRockReachMetres,
+                              rock.centre.y + rock.radiusMetres});
+    for (const Stem& stem : obstacles.stems)
+        footprints.push_back({stem.foot, kStemReachMetres, stem.topMetres});
     return {obstacles.place, obstacles.water, footprints};
 }
 
@@ -92,10 +95,12 @@ void Chart::list(std::span<const Footprint> footprints) {
         const int row = cell / cells_;
         const glm::vec2 least{origin_.x + static_cast<float>(cell % cells_) * kCellMetres,
                               origin_.y + static_cast<float>(row) * kCellMetres};
+        tops_.push_back(std::numeric_limits<float>::lowest());
         for (std::uint32_t i = 0; i < footprints.size(); ++i) {
             const float reach = footprints[i].radiusMetres + kChartReachMetres;
-            if (squaredDistanceToCell(footprints[i].xz, least) < reach * reach)
-                listed_.push_back(i);
+            if (squaredDistanceToCell(footprints[i].xz, least) >= reach * reach) continue;
+            listed_.push_back(i);
+            tops_.back() = std::max(tops_.back(), footprints[i].topMetres);
         }
     }
     starts_.push_back(static_cast<std::uint32_t>(listed_.size()));
@@ -116,11 +121,14 @@ float Chart::sand(glm::vec2 xz) const {
     return near + (far - near) * v;
 }
 
-std::span<const std::uint32_t> Chart::near(glm::vec2 xz) const {
+std::size_t Chart::cellOf(glm::vec2 xz) const {
     assert(covers(xz));
     const glm::vec2 at = (xz - origin_) * (1 / kCellMetres);
-    const auto cell =
-        static_cast<std::size_t>(static_cast<int>(at.y) * cells_ + static_cast<int>(at.x));
+    return static_cast<std::size_t>(static_cast<int>(at.y) * cells_ + static_cast<int>(at.x));
+}
+
+std::span<const std::uint32_t> Chart::near(glm::vec2 xz) const {
+    const std::size_t cell = cellOf(xz);
     return std::span(listed_).subspan(starts_[cell], starts_[cell + 1] - starts_[cell]);
 }
 

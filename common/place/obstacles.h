@@ -38,10 +38,11 @@ inline constexpr float kChartStepMetres = 0.25F;
 // Made once per scene and constant afterwards: any thread may read it. A lookup is O(1).
 class Chart {
   public:
-    // The circle that an obstacle covers in plan (x, z).
+    // The circle that an obstacle covers in plan (x, z), and the height y of its top.
     struct Footprint {
         glm::vec2 xz{};
         float radiusMetres = 0;
+        float topMetres = 0;
     };
     Chart() = default;
     // Covers the water and 1.5 m around it. Footprints are numbered in the order given.
@@ -59,8 +60,11 @@ class Chart {
     // Numbers, ascending, of all footprints within kChartReachMetres of the place. The list is that
     // of the cell, so some are farther.
     [[nodiscard]] std::span<const std::uint32_t> near(glm::vec2 xz) const;
+    // The highest top of those; far below the sea where there are none.
+    [[nodiscard]] float highestNear(glm::vec2 xz) const { return tops_[cellOf(xz)]; }
 
   private:
+    [[nodiscard]] std::size_t cellOf(glm::vec2 xz) const;
     // Fills sand_ and highest_; fills starts_ and listed_.
     void measure(const PlaceKey& place);
     void list(std::span<const Footprint> footprints);
@@ -76,6 +80,7 @@ class Chart {
     std::vector<float> sand_;
     // Footprints of cell i: listed_[starts_[i]] to listed_[starts_[i + 1]].
     std::vector<std::uint32_t> starts_, listed_;
+    std::vector<float> tops_;  // of each cell
 };
 
 // Made once per scene and constant afterwards: any thread may read it.
@@ -89,11 +94,16 @@ struct Obstacles {
     // tested.
     Chart chart = {};
 };
-// Whether test(rock) holds for a rock about a place (x, z). Tests at least all rocks that come
-// within kChartReachMetres of it; by the chart no others than those listed there.
+// Whether test(rock) holds for a rock about a place (x, z) whose top is above a height. Tests at
+// least all such rocks that come within kChartReachMetres of it; by the chart none that is not
+// listed there.
 template <class Test>
-[[nodiscard]] bool anyRockNear(const Obstacles& obstacles, glm::vec2 xz, const Test& test) {
+[[nodiscard]] bool anyRockNear(const Obstacles& obstacles,
+                               glm::vec2 xz,
+                               float heightMetres,
+                               const Test& test) {
     if (!obstacles.chart.covers(xz)) return std::ranges::any_of(obstacles.rocks, test);
+    if (obstacles.chart.highestNear(xz) < heightMetres) return false;
     for (const std::uint32_t i : obstacles.chart.near(xz)) {
         if (i >= obstacles.rocks.size()) break;  // stems come last
         if (test(obstacles.rocks[i])) return true;

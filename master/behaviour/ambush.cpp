@@ -71,58 +71,60 @@ std::uint32_t drawn(const Situation& situation, std::uint64_t period) {
         static_cast<std::uint32_t>((situation.environment.tick.value + own % period) / period));
 }
 
-// The clouds of its prey.
-template <class Each>
-void forEachCloud(const Situation& situation, const Each& each) {
+std::size_t cloudsOf(const fish::SpeciesParameters& species) {
+    return species.habits.cloud ? species.homes.size() : 0;
+}
+
+std::size_t structuresIn(const Situation& situation) {
+    return situation.environment.surroundings->structures.size();
+}
+Post structureAt(const Situation& situation, std::size_t index) {
+    const surroundings::Structure& structure =
+        situation.environment.surroundings->structures[index];
+    return {structure.crown, structure.radiusMetres, kOverStructure};
+}
+
+// The clouds of its prey, species by species.
+std::size_t cloudsIn(const Situation& situation) {
+    std::size_t count = 0;
+    for (std::uint64_t kinds = situation.parameters.hunts; kinds != 0; kinds &= kinds - 1)
+        count +=
+            cloudsOf(situation.environment.speciesParameters[std::size_t(std::countr_zero(kinds))]);
+    return count;
+}
+Post cloudAt(const Situation& situation, std::size_t index) {
     for (std::uint64_t kinds = situation.parameters.hunts; kinds != 0; kinds &= kinds - 1) {
         const fish::SpeciesParameters& prey =
             situation.environment.speciesParameters[std::size_t(std::countr_zero(kinds))];
-        if (!prey.habits.cloud) continue;
-        for (const glm::vec3& home : prey.homes)
-            each(Post{home,
-                      static_cast<float>(prey.habits.home.radiusMetres),
-                      static_cast<float>(prey.habits.cloud->heightMetres)});
+        if (index < cloudsOf(prey))
+            return {prey.homes[index],
+                    static_cast<float>(prey.habits.home.radiusMetres),
+                    static_cast<float>(prey.habits.cloud->heightMetres)};
+        index -= cloudsOf(prey);
     }
+    return {};
 }
 
-template <class Each>
-void forEachStructure(const Situation& situation, const Each& each) {
-    for (const surroundings::Structure& structure : situation.environment.surroundings->structures)
-        each(Post{structure.crown, structure.radiusMetres, kOverStructure});
-}
-
-// Of the posts that `forEach` gives the nearer of two that are drawn.
-template <class ForEach>
+// Of so many posts the nearer of two that are drawn; of equally near ones the first.
 std::optional<Post> nearerDrawn(const Situation& situation,
                                 std::uint32_t now,
-                                const ForEach& forEach) {
-    std::uint32_t count = 0;
-    forEach(situation, [&](const Post&) { ++count; });
-    std::optional<Post> best;
-    if (count == 0) return best;
-    float nearest = std::numeric_limits<float>::infinity();
-    std::uint32_t i = 0;
-    forEach(situation, [&](const Post& post) {
-        const bool isDrawn = i == hashOf(now, 1) % count || i == hashOf(now, 2) % count;
-        ++i;
-        const float distance = place::lengthOf(post.middle - situation.senses.position);
-        if (!isDrawn || distance >= nearest) return;
-        nearest = distance;
-        best = post;
-    });
-    return best;
+                                std::size_t count,
+                                Post (*postAt)(const Situation&, std::size_t)) {
+    if (count == 0) return {};
+    const auto [first, second] = std::minmax({hashOf(now, 1) % count, hashOf(now, 2) % count});
+    const Post one = postAt(situation, first);
+    const Post other = postAt(situation, second);
+    const glm::vec3 from = situation.senses.position;
+    return place::lengthOf(other.middle - from) < place::lengthOf(one.middle - from) ? other : one;
 }
 
 // At a structure in one period of four, else at a cloud where there is one.
 std::optional<Post> edgePost(const Situation& situation) {
     const std::uint32_t now = drawn(situation, kTicksOfPost);
-    const auto clouds = [](const Situation& of, const auto& each) { forEachCloud(of, each); };
-    const auto structures = [](const Situation& of, const auto& each) {
-        forEachStructure(of, each);
-    };
-    if (now % kStructureOneIn == 0) return nearerDrawn(situation, now, structures);
-    const std::optional<Post> cloud = nearerDrawn(situation, now, clouds);
-    return cloud ? cloud : nearerDrawn(situation, now, structures);
+    const std::size_t clouds = cloudsIn(situation);
+    return now % kStructureOneIn == 0 || clouds == 0
+               ? nearerDrawn(situation, now, structuresIn(situation), structureAt)
+               : nearerDrawn(situation, now, clouds, cloudAt);
 }
 
 // The place nearest to a place that is off the borders of the water and over the ground.
@@ -153,32 +155,39 @@ glm::vec3 placeAtEdge(const Situation& situation, const Post& post) {
     return clearOf(around.obstacles, place) - situation.senses.position;
 }
 
-// The site of a kind that is nearest to a place, of those farther than `beyond` metres; null where
-// there is none.
-const place::Site* nextSite(const std::vector<place::Site>& sites,
+// The site of a kind that is nearest to a place, of those farther than `beyond` metres; of equally
+// near ones the first; null where there is none.
+const place::Site* nextSite(const Environment& environment,
                             config::SiteKind kind,
                             glm::vec3 from,
                             float beyond) {
-    const place::Site* next = nullptr;
-    float nearest = std::numeric_limits<float>::infinity();
-    for (const place::Site& site : sites) {
-        const float distance = place::lengthOf(site.place - from);
-        if (site.kind != kind || distance <= beyond || distance >= nearest) continue;
-        nearest = distance;
-        next = &site;
-    }
-    return next;
+    const std::vector<place::Site>& sites = environment.surroundings->sites;
+    std::uint32_t next = fish::kNobody;
+    PlacesKnown::findOutwards([&](float reachSquared) {
+        float nearest = std::sqrt(reachSquared);
+        environment.grids->sites.visit(from, reachSquared, sites.size(), [&](std::uint32_t i) {
+            const float distance = place::lengthOf(sites[i].place - from);
+            if (sites[i].kind != kind || distance <= beyond || distance > nearest) return;
+            if (distance == nearest && i > next) return;
+            nearest = distance;
+            reachSquared = distance * distance;
+            next = i;
+        });
+        return next != fish::kNobody;
+    });
+    return next == fish::kNobody ? nullptr : &sites[next];
 }
 
 // The site of this rank, from 0 on, by its distance from a place; where there are fewer the
 // farthest, null where there is none.
-const place::Site* siteOfRank(const std::vector<place::Site>& sites,
+const place::Site* siteOfRank(const Environment& environment,
                               config::SiteKind kind,
                               glm::vec3 from,
                               std::uint32_t rank) {
-    const place::Site* found = nextSite(sites, kind, from, -1);
+    const place::Site* found = nextSite(environment, kind, from, -1);
     for (std::uint32_t i = 0; found != nullptr && i < rank; ++i) {
-        const place::Site* next = nextSite(sites, kind, from, place::lengthOf(found->place - from));
+        const place::Site* next =
+            nextSite(environment, kind, from, place::lengthOf(found->place - from));
         if (next == nullptr) break;
         found = next;
     }
@@ -188,11 +197,10 @@ const place::Site* siteOfRank(const std::vector<place::Site>& sites,
 // The site where a fish with a home waits now, relative to it: one of the nearest of their kind.
 std::optional<glm::vec3> placeAtSite(const Situation& situation) {
     const config::Habits& habits = situation.parameters.habits;
-    const std::vector<place::Site>& sites = situation.environment.surroundings->sites;
     if (!habits.home.site || situation.parameters.homes.empty()) return {};
     const glm::vec3 home = homeOf(situation.parameters, situation.fish);
     const std::uint32_t wanted = drawn(situation, kTicksOfPost) % habits.hunt.ambush->posts;
-    const place::Site* found = siteOfRank(sites, *habits.home.site, home, wanted);
+    const place::Site* found = siteOfRank(situation.environment, *habits.home.site, home, wanted);
     const glm::vec3 over{0, kOverSite, 0};
     if (found == nullptr) return home + over - situation.senses.position;
     return found->place + found->normal * (kOffSite * situation.senses.length) + over -

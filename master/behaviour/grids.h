@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -331,8 +332,18 @@ class PlacesKnown {
         });
     }
 
+    // Calls find(reachSquared), which visits so far, for growing reaches until it returns true; the
+    // last is without end.
+    template <class Find>
+    static void findOutwards(const Find& find) {
+        for (float reach = kCellMetres; reach < kFarthestMetres; reach *= 2)
+            if (find(reach * reach)) return;
+        find(std::numeric_limits<float>::infinity());
+    }
+
   private:
     static constexpr float kCellMetres = 2.0F;
+    static constexpr float kFarthestMetres = 100;
 
     SpatialGrid grid_{{}, kCellMetres, 0, 1};
 };

@@ -8,6 +8,7 @@
 #include "common/base/random_streams.h"
 #include "common/place/place.h"
 #include "master/behaviour/home.h"
+#include "master/behaviour/loops.h"
 #include "master/behaviour/routines.h"
 #include "master/behaviour/territory.h"
 
@@ -26,7 +27,6 @@ constexpr float kDrawn = 0.4F;
 
 // On its loop a fish passes over one patch in so many.
 constexpr std::uint32_t kSkipsOneIn = 8;
-constexpr std::uint32_t kFewestOfLoop = 8;
 
 Sighting sightingOf(const surroundings::Turf& turf, std::uint32_t patch, glm::vec3 from) {
     const glm::vec3 offset = turf.patches[patch].place - from;
@@ -79,10 +79,9 @@ std::uint32_t chosenPatch(const Environment& environment,
     const float range = grazingRange(environment, parameters, fish);
     const std::uint32_t drawn = hashOf(hashOf(environment.seed, Stream::Patches, fish),
                                        static_cast<std::uint32_t>(environment.tick.value));
+    const glm::vec3 from = parameters.homes.empty() ? senses.position : homeOf(parameters, fish);
     std::uint32_t best = 0;
     float most = -std::numeric_limits<float>::infinity();
-    // Once one is in its range, those out of it are worth less.
-    float reachSquared = std::numeric_limits<float>::infinity();
     const auto weigh = [&](std::uint32_t patch) {
         const glm::vec3 place = turf.patches[patch].place;
         const float away = awayFromHome(parameters, fish, place);
@@ -92,24 +91,31 @@ std::uint32_t chosenPatch(const Environment& environment,
         if (patch == present) value = 0;
         // None within its range: the one nearest to its home.
         if (away > range) value = -away;
-        reachSquared = std::min(reachSquared, std::max(away, range) * std::max(away, range));
         if (value < most || (value == most && patch > best)) return;
         most = value;
         best = patch;
     };
-    const glm::vec3 from = parameters.homes.empty() ? senses.position : homeOf(parameters, fish);
-    environment.grids->turf.visit(from, reachSquared, turf.patches.size(), weigh);
+    const PlacesKnown& known = environment.grids->turf;
+    known.visit(from, range * range, turf.patches.size(), weigh);
+    if (most >= 0) return best;
+    PlacesKnown::findOutwards([&](float reachSquared) {
+        known.visit(from, reachSquared, turf.patches.size(), weigh);
+        return -most * -most <= reachSquared;
+    });
     return best;
 }
 
 // The patch after the present one on its round, or the one after that; the nearest where it is at
 // none of them.
 std::uint32_t nextOfLoop(const Environment& environment,
+                         const fish::SpeciesParameters& parameters,
                          std::uint32_t fish,
                          std::uint32_t present,
                          const Senses& senses) {
     const surroundings::Turf& turf = environment.surroundings->turf;
-    const Loop loop = loopOf(turf, environment.seed, fish);
+    const Loop* const made =
+        environment.loops == nullptr ? nullptr : environment.loops->of(parameters, fish);
+    const Loop loop = made == nullptr ? loopOf(turf, environment.seed, fish) : *made;
     const auto at = std::ranges::find(loop.all(), present);
     if (at == loop.all().end())
         return *std::ranges::min_element(loop.all(), {}, [&](std::uint32_t patch) {
@@ -153,43 +159,6 @@ std::uint32_t leaderOf(const fish::FishView& view,
     return fish;
 }
 
-Loop loopOf(const surroundings::Turf& turf, std::uint32_t seed, std::uint32_t fish) {
-    assert(!turf.patches.empty());
-    const std::uint32_t drawn = hashOf(seed, Stream::Loops, fish);
-    const auto patches = static_cast<std::uint32_t>(turf.patches.size());
-    const std::size_t count =
-        std::min<std::size_t>(patches, kFewestOfLoop + drawn % (Loop::kMost - kFewestOfLoop + 1));
-    const auto apart = [&](std::uint32_t one, std::uint32_t other) {
-        return place::lengthOf(turf.patches[one].place - turf.patches[other].place);
-    };
-    // Each time the one that is farthest from those before it.
-    Loop loop;
-    loop.patches[loop.count++] = hashOf(drawn, 1) % patches;
-    while (loop.count < count) {
-        std::uint32_t best = 0;
-        float farthest = -1;
-        for (std::uint32_t patch = 0; patch < patches; ++patch) {
-            float nearest = std::numeric_limits<float>::infinity();
-            for (const std::uint32_t other : loop.all()) {
-                nearest = std::min(nearest, apart(patch, other));
-                if (nearest <= farthest) break;
-            }
-            if (nearest <= farthest) continue;
-            farthest = nearest;
-            best = patch;
-        }
-        loop.patches[loop.count++] = best;
-    }
-    // After each the nearest of those that are left.
-    for (std::size_t i = 1; i < loop.count; ++i) {
-        const auto rest = std::span(loop.patches).subspan(i, loop.count - i);
-        const auto nearest = std::ranges::min_element(
-            rest, {}, [&](std::uint32_t patch) { return apart(patch, loop.patches[i - 1]); });
-        std::iter_swap(rest.begin(), nearest);
-    }
-    return loop;
-}
-
 Sighting patchFor(const Environment& environment,
                   const fish::SpeciesParameters& parameters,
                   std::uint32_t fish,
@@ -204,7 +173,7 @@ Sighting patchFor(const Environment& environment,
         return sightingOf(turf, present, senses.position);
     const bool loops = parameters.habits.graze->manner == config::GrazeManner::Loop;
     return sightingOf(turf,
-                      loops ? nextOfLoop(environment, fish, present, senses)
+                      loops ? nextOfLoop(environment, parameters, fish, present, senses)
                             : chosenPatch(environment, parameters, fish, present, senses),
                       senses.position);
 }

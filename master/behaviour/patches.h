@@ -29,18 +29,4 @@ namespace aquarama::behaviour {
                                      const fish::SpeciesParameters& parameters,
                                      std::uint32_t fish);
 
-// The round of a fish: 8 to 15 patches, by index, far apart from each other, in the order in which
-// it visits them. All where there are fewer.
-struct Loop {
-    static constexpr std::size_t kMost = 15;
-    std::array<std::uint32_t, kMost> patches{};
-    std::size_t count = 0;
-    // The patches in use, in the order of the round.
-    [[nodiscard]] std::span<const std::uint32_t> all() const {
-        return std::span(patches).first(count);
-    }
-};
-// The turf must have a patch.
-[[nodiscard]] Loop loopOf(const surroundings::Turf& turf, std::uint32_t seed, std::uint32_t fish);
-
 }  // namespace aquarama::behaviour

@@ -41,7 +41,7 @@ bool rocksHide(const place::Obstacles& obstacles, const SightLine& ray) {
     const auto parts = static_cast<int>(metres / kBetweenPlacesMetres) + 1;
     for (int part = 0; part < parts; ++part) {
         const float share = (static_cast<float>(part) + 0.5F) / static_cast<float>(parts);
-        if (place::anyRockNear(obstacles, from + along * share, hides)) return true;
+        if (place::anyRockNear(obstacles, from + along * share, lowest, hides)) return true;
     }
     return false;
 }

@@ -130,12 +130,14 @@ glm::vec3 ballPush(glm::vec3 centre,
 float groundAt(const place::Obstacles& obstacles, glm::vec2 xz) {
     float ground = obstacles.chart.covers(xz) ? obstacles.chart.sand(xz)
                                               : plainSand(obstacles, {xz.x, 0, xz.y});
-    for (const place::Rock& rock : obstacles.rocks) {
+    const auto rises = [&](const place::Rock& rock) {
         const glm::vec2 from{xz.x - rock.centre.x, xz.y - rock.centre.z};
         const float within =
             rock.radiusMetres * rock.radiusMetres - from.x * from.x - from.y * from.y;
         if (within > 0) ground = std::max(ground, rock.centre.y + std::sqrt(within));
-    }
+        return false;  // the others may rise higher
+    };
+    (void)place::anyRockNear(obstacles, xz, ground, rises);
     return ground;
 }
 

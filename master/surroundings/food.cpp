@@ -64,9 +64,10 @@ bool isWithin(const place::Region& water, glm::vec3 place) {
 
 bool isClear(const place::Obstacles& obstacles, glm::vec3 place) {
     static_assert(kRockRoomMetres <= place::kChartReachMetres);
-    return !place::anyRockNear(obstacles, {place.x, place.z}, [&](const place::Rock& rock) {
+    const auto isIn = [&](const place::Rock& rock) {
         return place::lengthOf(place - rock.centre) < rock.radiusMetres + kRockRoomMetres;
-    });
+    };
+    return !place::anyRockNear(obstacles, {place.x, place.z}, place.y - 2 * kRockRoomMetres, isIn);
 }
 
 // Where a particle appears: anywhere, or in the tenth of the water from which the current comes.

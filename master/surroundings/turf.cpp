@@ -24,10 +24,12 @@ constexpr std::uint32_t kTries = 12;
 bool isClear(const place::Obstacles& obstacles, const place::Rock& own, glm::vec3 spot) {
     if (spot.y < place::floorHeight(obstacles.place, {spot.x, spot.z}) + kOverSandMetres)
         return false;
-    return !place::anyRockNear(obstacles, {spot.x, spot.z}, [&](const place::Rock& other) {
+    const auto isIn = [&](const place::Rock& other) {
         return other.seed != own.seed &&
                place::lengthOf(other.centre - spot) < kClearRadii * other.radiusMetres;
-    });
+    };
+    constexpr float kAnyHeight = -1.0e6F;
+    return !place::anyRockNear(obstacles, {spot.x, spot.z}, kAnyHeight, isIn);
 }
 
 // A spot drawn about a patch that is clear and apart from those before it, else the middle.

@@ -50,9 +50,10 @@ glm::vec3 placeDrawn(const place::Obstacles& obstacles, std::uint32_t hash) {
 
 bool isClear(const place::Obstacles& obstacles, glm::vec3 place) {
     static_assert(kRockRoomMetres <= place::kChartReachMetres);
-    return !place::anyRockNear(obstacles, {place.x, place.z}, [&](const place::Rock& rock) {
+    const auto isIn = [&](const place::Rock& rock) {
         return place::lengthOf(place - rock.centre) < rock.radiusMetres + kRockRoomMetres;
-    });
+    };
+    return !place::anyRockNear(obstacles, {place.x, place.z}, place.y - 2 * kRockRoomMetres, isIn);
 }
 
 // The middle of a school is found anew so often.
@@ -197,6 +198,7 @@ World::World(const WorldOptions& options)
     columns_.wearers.mayBeEaten = options.drawingsMayBeEaten;
     for (const WorldSpecies& species : options.cast) addKind(species, options.cast);
     grids_.know(surroundings_);
+    loops_ = {surroundings_.turf, seed_, speciesParameters_};
     meals_ = makeMeals(columns_.traits.size());
     absences_ = makeAbsences(speciesParameters_);
     makeRoomForEvents();
@@ -461,7 +463,8 @@ behaviour::Environment World::environment() const {
             .tick = tick_,
             .adaptation = adaptation_,
             .wearers = columns_.wearers.fish.empty() ? nullptr : &columns_.wearers,
-            .released = columns_.released.fish.empty() ? nullptr : &columns_.released};
+            .released = columns_.released.fish.empty() ? nullptr : &columns_.released,
+            .loops = &loops_};
 }
 
 // Thoughts of this tick. Fish think in the order in which they stand in the grid, because

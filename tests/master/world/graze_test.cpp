@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "common/place/place.h"
+#include "master/behaviour/loops.h"
 #include "master/behaviour/patches.h"
 #include "master/behaviour/routines.h"
 #include "tests/master/world/grazing_world.h"
