@@ -130,31 +130,46 @@ bool Current::isOpenFrom(int x, int y, int z) const {
     return true;
 }
 
-glm::vec3 Current::at(glm::vec3 position, glm::vec3 open) const {
-    if (isStill()) return {};
+Current::Cell Current::cellOf(glm::vec3 position) const {
     const glm::vec3 cell = (position - origin_) * (1 / kCellMetres);
     const auto within = [](float at, int count) {
         return std::clamp(at, 0.0F, static_cast<float>(count) - 1.001F);
     };
-    const float x = within(cell.x, countX_);
-    const float y = within(cell.y, countY_);
-    const float z = within(cell.z, countZ_);
-    const int atX = static_cast<int>(x);
-    const int atY = static_cast<int>(y);
-    const int atZ = static_cast<int>(z);
-    if (isOpen_[indexOf(atX, atY, atZ)] != 0) return open;
-    const float u = x - static_cast<float>(atX);
-    const float v = y - static_cast<float>(atY);
-    const float w = z - static_cast<float>(atZ);
+    const glm::vec3 at{within(cell.x, countX_), within(cell.y, countY_), within(cell.z, countZ_)};
+    const int x = static_cast<int>(at.x);
+    const int y = static_cast<int>(at.y);
+    const int z = static_cast<int>(at.z);
+    return {
+        x,
+        y,
+        z,
+        {at.x - static_cast<float>(x), at.y - static_cast<float>(y), at.z - static_cast<float>(z)}};
+}
+
+void Current::fetch(glm::vec3 position) const {
+    if (isStill()) return;
+    const Cell cell = cellOf(position);
+    __builtin_prefetch(&isOpen_[indexOf(cell.x, cell.y, cell.z)]);
+    for (const int dz : {0, 1})
+        for (const int dy : {0, 1})
+            __builtin_prefetch(&factors_[2 * indexOf(cell.x, cell.y + dy, cell.z + dz)]);
+}
+
+glm::vec3 Current::at(glm::vec3 position, glm::vec3 open) const {
+    if (isStill()) return {};
+    const Cell cell = cellOf(position);
+    if (isOpen_[indexOf(cell.x, cell.y, cell.z)] != 0) return open;
     const std::size_t side = open.x < 0 ? 1 : 0;
     const auto corner = [&](int dx, int dy, int dz) {
-        return factors_[2 * indexOf(atX + dx, atY + dy, atZ + dz) + side];
+        return factors_[2 * indexOf(cell.x + dx, cell.y + dy, cell.z + dz) + side];
     };
     const auto along = [&](int dy, int dz) {
-        return corner(0, dy, dz) + (corner(1, dy, dz) - corner(0, dy, dz)) * u;
+        return corner(0, dy, dz) + (corner(1, dy, dz) - corner(0, dy, dz)) * cell.share.x;
     };
-    const auto plane = [&](int dz) { return along(0, dz) + (along(1, dz) - along(0, dz)) * v; };
-    return open * (plane(0) + (plane(1) - plane(0)) * w);
+    const auto plane = [&](int dz) {
+        return along(0, dz) + (along(1, dz) - along(0, dz)) * cell.share.y;
+    };
+    return open * (plane(0) + (plane(1) - plane(0)) * cell.share.z);
 }
 
 }  // namespace aquarama::place

@@ -51,6 +51,8 @@ class Current {
     // The velocity at a place, from that far from boulders at the same tick. Outside the water that
     // of its border.
     [[nodiscard]] glm::vec3 at(glm::vec3 position, glm::vec3 open) const;
+    // Prefetches what at() will read for a place.
+    void fetch(glm::vec3 position) const;
 
   private:
     config::SceneCurrent current_;
@@ -61,6 +63,12 @@ class Current {
     std::vector<float> factors_;
     // Of each corner whether all factors of the cell that begins there are 1, as most are.
     std::vector<std::uint8_t> isOpen_;
+    // A cell of the grid, by its corner of least coordinates, and a place in it, 0 to 1 each.
+    struct Cell {
+        int x, y, z;
+        glm::vec3 share;
+    };
+    [[nodiscard]] Cell cellOf(glm::vec3 position) const;
     [[nodiscard]] bool isOpenFrom(int x, int y, int z) const;
     [[nodiscard]] std::size_t indexOf(int x, int y, int z) const {
         return static_cast<std::size_t>((z * countY_ + y) * countX_ + x);

@@ -127,6 +127,19 @@ std::size_t Chart::cellOf(glm::vec2 xz) const {
     return static_cast<std::size_t>(static_cast<int>(at.y) * cells_ + static_cast<int>(at.x));
 }
 
+void Chart::fetch(glm::vec2 xz) const {
+    if (!covers(xz)) return;
+    const std::size_t cell = cellOf(xz);
+    __builtin_prefetch(&tops_[cell]);
+    __builtin_prefetch(&starts_[cell]);
+    if (sand_.empty()) return;
+    const glm::vec2 at = (xz - origin_) * (1 / kChartStepMetres);
+    const auto corner =
+        static_cast<std::size_t>(static_cast<int>(at.y) * corners_ + static_cast<int>(at.x));
+    __builtin_prefetch(&sand_[corner]);
+    __builtin_prefetch(&sand_[corner + static_cast<std::size_t>(corners_)]);
+}
+
 std::span<const std::uint32_t> Chart::near(glm::vec2 xz) const {
     const std::size_t cell = cellOf(xz);
     return std::span(listed_).subspan(starts_[cell], starts_[cell + 1] - starts_[cell]);

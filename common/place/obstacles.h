@@ -62,6 +62,8 @@ class Chart {
     [[nodiscard]] std::span<const std::uint32_t> near(glm::vec2 xz) const;
     // The highest top of those; far below the sea where there are none.
     [[nodiscard]] float highestNear(glm::vec2 xz) const { return tops_[cellOf(xz)]; }
+    // Prefetches what these read for a place, on the chart or not.
+    void fetch(glm::vec2 xz) const;
 
   private:
     [[nodiscard]] std::size_t cellOf(glm::vec2 xz) const;

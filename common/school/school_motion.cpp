@@ -21,6 +21,8 @@ constexpr float kHalfWidth = 0.06F;
 constexpr float kUnitsATick =
     1 / (motion::kPositionUnitMetres * static_cast<float>(kTicksPerSecond));
 constexpr std::size_t kFishInChunk = 512;
+// What carries a fish is prefetched so many fish ahead.
+constexpr std::size_t kFetchedAhead = 6;
 // With fewer each thread would mostly wait for the others.
 constexpr std::size_t kFishOfAThread = 4000;
 
@@ -145,6 +147,11 @@ void Carrier::carry(std::span<const motion::FishTraits> traits,
                     std::size_t last,
                     motion::Advection& advection) const {
     for (std::size_t fish = first; fish < last; ++fish) {
+        if (fish + kFetchedAhead < last) {
+            const glm::vec3 next = positionOf(states, fish + kFetchedAhead);
+            current->fetch(next);
+            obstacles->chart.fetch({next.x, next.z});
+        }
         glm::vec3 velocity{};
         if (!motion::isAway(states, fish)) {
             const glm::vec3 position = positionOf(states, fish);

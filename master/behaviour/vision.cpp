@@ -5,6 +5,8 @@
 #include <array>
 #include <utility>
 
+#include <glm/common.hpp>
+
 #include "common/place/place.h"
 
 namespace aquarama::behaviour {
@@ -26,14 +28,30 @@ constexpr float kTrunkRadius = 0.1F;
 // A chart lists for each place the rocks that come within kChartReachMetres of it: those on a line
 // stand near one of its places, where these are no farther apart than this.
 constexpr float kBetweenPlacesMetres = 2 * place::kChartReachMetres;
-// A rock whose top is so far below a line does not hide it: more than rounding can take off.
-constexpr float kBelowMetres = 0.01F;
+// A rock so far outside the box about a line does not hide it: more than rounding can take off.
+constexpr float kOutsideMetres = 0.01F;
+
+// The box about a line, a little larger: most rocks that a chart lists do not reach into it.
+struct BoxAbout {
+    glm::vec3 least, most;
+
+    explicit BoxAbout(const SightLine& ray)
+        : least(glm::min(ray.from, ray.from + ray.offset) - kOutsideMetres),
+          most(glm::max(ray.from, ray.from + ray.offset) + kOutsideMetres) {}
+
+    // All at once without branches, because which fails cannot be predicted.
+    [[nodiscard]] bool meets(glm::vec3 centre, float radius) const {
+        return (centre.y + radius > least.y) & (centre.x + radius > least.x) &
+               (centre.x - radius < most.x) & (centre.z + radius > least.z) &
+               (centre.z - radius < most.z);
+    }
+};
 
 bool rocksHide(const place::Obstacles& obstacles, const SightLine& ray) {
-    const float lowest = std::min(ray.from.y, ray.from.y + ray.offset.y) - kBelowMetres;
+    const BoxAbout box(ray);
     const auto hides = [&](const place::Rock& rock) {
         const float radius = rock.radiusMetres * kSolidRock;
-        return rock.centre.y + radius > lowest && ray.passes(rock.centre, radius);
+        return box.meets(rock.centre, radius) && ray.passes(rock.centre, radius);
     };
     const glm::vec2 from{ray.from.x, ray.from.z};
     const glm::vec2 along{ray.offset.x, ray.offset.z};
@@ -41,7 +59,7 @@ bool rocksHide(const place::Obstacles& obstacles, const SightLine& ray) {
     const auto parts = static_cast<int>(metres / kBetweenPlacesMetres) + 1;
     for (int part = 0; part < parts; ++part) {
         const float share = (static_cast<float>(part) + 0.5F) / static_cast<float>(parts);
-        if (place::anyRockNear(obstacles, from + along * share, lowest, hides)) return true;
+        if (place::anyRockNear(obstacles, from + along * share, box.least.y, hides)) return true;
     }
     return false;
 }
