@@ -213,11 +213,13 @@ void Grids::expect(const fish::FishView& view,
     expect(large, kLarges, big);
 }
 
-void Grids::know(const surroundings::Surroundings& surroundings) {
+void Grids::know(const surroundings::Surroundings& surroundings,
+                 std::span<const fish::SpeciesParameters> speciesParameters) {
     const std::vector<place::Site>& all = surroundings.sites;
     const std::vector<surroundings::TurfPatch>& patches = surroundings.turf.patches;
     sites.take(water_, all.size(), [&](std::uint32_t i) { return all[i].place; });
     turf.take(water_, patches.size(), [&](std::uint32_t i) { return patches[i].place; });
+    loops = {surroundings.turf, surroundings.seed, speciesParameters};
 }
 
 void Grids::mark(const fish::FishView& view,

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/place/place.h"
+#include "master/behaviour/loops.h"
 #include "master/fish/fish_view.h"
 #include "master/surroundings/food.h"
 #include "master/surroundings/surroundings.h"
@@ -364,8 +365,9 @@ class Grids {
     void expect(const fish::FishView& view,
                 std::span<const fish::SpeciesParameters> speciesParameters);
 
-    // Makes grids of what does not move in these surroundings.
-    void know(const surroundings::Surroundings& surroundings);
+    // Makes grids of what does not move in these surroundings, and the rounds of grazers.
+    void know(const surroundings::Surroundings& surroundings,
+              std::span<const fish::SpeciesParameters> speciesParameters);
     // Rebuilds all grids from the fish and the food that are there. Allocates nothing after
     // expect().
     void rebuild(const fish::FishView& view,
@@ -421,6 +423,7 @@ class Grids {
     // Of the surroundings: their sites and patches of turf.
     PlacesKnown sites;
     PlacesKnown turf;
+    Loops loops;
 
   private:
     // Marks of each fish: by them the sparse grids are filled.

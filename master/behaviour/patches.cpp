@@ -113,8 +113,7 @@ std::uint32_t nextOfLoop(const Environment& environment,
                          std::uint32_t present,
                          const Senses& senses) {
     const surroundings::Turf& turf = environment.surroundings->turf;
-    const Loop* const made =
-        environment.loops == nullptr ? nullptr : environment.loops->of(parameters, fish);
+    const Loop* const made = environment.grids->loops.of(parameters, fish);
     const Loop loop = made == nullptr ? loopOf(turf, environment.seed, fish) : *made;
     const auto at = std::ranges::find(loop.all(), present);
     if (at == loop.all().end())

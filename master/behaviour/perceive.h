@@ -22,8 +22,6 @@
 
 namespace aquarama::behaviour {
 
-class Loops;
-
 // All that a fish may read while it thinks. Points into the world; nothing in it changes meanwhile,
 // so that fish may think in any order and on any thread.
 struct Environment {
@@ -43,8 +41,6 @@ struct Environment {
     const fish::Wearers* wearers = nullptr;
     // Those that are on their way; null: none is.
     const fish::ReleasedHunters* released = nullptr;
-    // Rounds of those that graze so, made once; null: each is made when it is asked for.
-    const Loops* loops = nullptr;
 };
 
 // Stimuli (Tu 1996, section 5.2): what the nearness of food or of a mate adds to a drive.

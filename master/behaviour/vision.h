@@ -31,7 +31,7 @@ struct SightLine {
     // Whether it passes a point nearer than `radius`.
     [[nodiscard]] bool passes(glm::vec3 centre, float radius) const;
 };
-// Whether rock or sand, or below one body, stands on the line. O(rocks) and O(1).
+// Whether rock or sand, or below one body, stands on the line. O(rocks about the line) and O(1).
 [[nodiscard]] bool terrainHides(const place::Obstacles& obstacles, const SightLine& ray);
 [[nodiscard]] bool bodyHides(const fish::FishView& view, std::uint32_t body, const SightLine& ray);
 

@@ -197,8 +197,7 @@ World::World(const WorldOptions& options)
                     " species: there is room for " + std::to_string(kMostSpecies));
     columns_.wearers.mayBeEaten = options.drawingsMayBeEaten;
     for (const WorldSpecies& species : options.cast) addKind(species, options.cast);
-    grids_.know(surroundings_);
-    loops_ = {surroundings_.turf, seed_, speciesParameters_};
+    grids_.know(surroundings_, speciesParameters_);
     meals_ = makeMeals(columns_.traits.size());
     absences_ = makeAbsences(speciesParameters_);
     makeRoomForEvents();
@@ -463,8 +462,7 @@ behaviour::Environment World::environment() const {
             .tick = tick_,
             .adaptation = adaptation_,
             .wearers = columns_.wearers.fish.empty() ? nullptr : &columns_.wearers,
-            .released = columns_.released.fish.empty() ? nullptr : &columns_.released,
-            .loops = &loops_};
+            .released = columns_.released.fish.empty() ? nullptr : &columns_.released};
 }
 
 // Thoughts of this tick. Fish think in the order in which they stand in the grid, because

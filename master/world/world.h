@@ -21,7 +21,6 @@
 #include "common/config/species.h"
 #include "common/motion/motion_state.h"
 #include "common/motion/motor.h"
-#include "master/behaviour/loops.h"
 #include "master/behaviour/perceive.h"
 #include "master/behaviour/routines.h"
 #include "master/fish/fish_view.h"
@@ -203,7 +202,6 @@ class World {
     std::vector<Absence> absences_;
     WorldCounts counts_;
     behaviour::Grids grids_;
-    behaviour::Loops loops_;
     SchoolGoal school_;
     WorkerPool pool_;
 };
