@@ -13,13 +13,14 @@ const uint kFinPoses = kActions * kPhases * 2u;               // left and right,
 const uint kFinNumbers = 6u * 2u + kControlPoints * 2u * 2u;  // of a FinStyle, and of FinPoints
 const uint kSpeciesWords = kPoses + kFinPoses + kFinNumbers;
 // Species by species. First by action and phase the points: 3 x 16 bits, body lengths, then a heading,
-// half turns; then by action and phase the poses of the fins: 3 x 16 bits; the fins follow in the same
-// buffer, as OpenGL guarantees no more buffers.
-layout(std430, binding = kRecordedStorage) readonly buffer Recorded { uvec2 recorded[]; };
+// half turns; then by action and phase the poses of the fins: 3 x 16 bits; then the fins. A texture, as
+// a storage block of 128 MiB would hold 16 species.
+layout(binding = kRecordedUnit) uniform usamplerBuffer recordedPoses;
+uvec2 recordedAt(uint k) { return texelFetch(recordedPoses, int(k)).xy; }
 
 vec4 finNumbers(uint species, uint vector) {
     uint k = species * kSpeciesWords + kPoses + kFinPoses + 2u * vector;
-    return uintBitsToFloat(uvec4(recorded[k], recorded[k + 1u]));
+    return uintBitsToFloat(uvec4(recordedAt(k), recordedAt(k + 1u)));
 }
 
 FinPoint finPointOf(uint species, uint i) {
@@ -36,7 +37,7 @@ FinStyle finStyleOf(uint species) {
 
 // Radians; side 0 is left.
 vec3 recordedFin(uint species, uint action, uint phase, uint side) {
-    uvec2 bits = recorded[species * kSpeciesWords + kPoses + (action * kPhases + phase) * 2u + side];
+    uvec2 bits = recordedAt(species * kSpeciesWords + kPoses + (action * kPhases + phase) * 2u + side);
     return vec3(unpackSnorm2x16(bits.x), unpackSnorm2x16(bits.y).x) * kMostFinAngle;
 }
 
@@ -62,7 +63,7 @@ struct Posed {
 
 vec4 recordedPoint(uint species, uint action, uint phase, uint point) {
     uint pose = action * kPhases + phase;
-    uvec2 bits = recorded[species * kSpeciesWords + pose * kControlPoints + point];
+    uvec2 bits = recordedAt(species * kSpeciesWords + pose * kControlPoints + point);
     return vec4(unpackSnorm2x16(bits.x), unpackSnorm2x16(bits.y));
 }
 

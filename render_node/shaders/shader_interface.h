@@ -31,7 +31,6 @@ AQUARAMA_CONSTANT int kPlanStorage = 6;
 AQUARAMA_CONSTANT int kCountsStorage = 7;
 
 // Of the kernel that makes surfaces, beside kSchoolStorage, kCastStorage and kPlanStorage.
-AQUARAMA_CONSTANT int kRecordedStorage = 1;
 AQUARAMA_CONSTANT int kFirstEntriesStorage = 2;
 AQUARAMA_CONSTANT int kEntriesStorage = 3;
 AQUARAMA_CONSTANT int kSurfaceStorage = 5;
@@ -69,6 +68,9 @@ AQUARAMA_CONSTANT int kRippleTileUnit = 19;
 AQUARAMA_CONSTANT int kCloudTileUnit = 20;
 AQUARAMA_CONSTANT int kSunHeightsUnit = 21;
 AQUARAMA_CONSTANT int kTopHeightsUnit = 22;
+
+// Texture unit of the recorded poses of fish.
+AQUARAMA_CONSTANT int kRecordedUnit = 24;
 
 // Texture unit of what visitors have painted.
 AQUARAMA_CONSTANT int kDrawnSkinsUnit = 23;

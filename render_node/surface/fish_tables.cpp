@@ -375,17 +375,17 @@ FishArrays fishArrays(std::span<const SchoolSpecies> cast, std::size_t finest) {
 
 namespace {
 
-// Throws Error where the poses of the species are more than a shader can read of one buffer.
+// Throws Error where the poses of the species are more than a shader can read of one texture.
 void requireRoom(const FishArrays& arrays) {
     GLint64 most = 0;
-    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
-    const std::size_t bytes = arrays.recorded.size() * sizeof(RecordedPoint);
-    if (std::cmp_less_equal(bytes, most)) return;
+    glGetInteger64v(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+    const std::size_t points = arrays.recorded.size();
+    if (std::cmp_less_equal(points, most)) return;
     const std::size_t species = arrays.species.size();
     throw Error(
-        std::to_string(species) + " species: their poses take " + std::to_string(bytes >> 20U) +
-        " MiB, and this graphics card has room for " + std::to_string(most >> 20) + "; show " +
-        std::to_string(static_cast<std::size_t>(most) / (bytes / species)) + " species at most");
+        std::to_string(species) + " species: their poses are " + std::to_string(points) +
+        " points, and this graphics card has room for " + std::to_string(most) + "; show " +
+        std::to_string(static_cast<std::size_t>(most) / (points / species)) + " species at most");
 }
 
 }  // namespace
@@ -399,6 +399,7 @@ FishTables::FishTables(const FishArrays& arrays, std::size_t finest) {
     }
     cast = gl::makeBuffer(arrays.species, "cast");
     recorded = gl::makeBuffer(arrays.recorded, "recorded control points");
+    glTextureBuffer(poses.name(), GL_RG32UI, recorded.name());
     firstEntries = gl::makeBuffer(arrays.firstEntry, "stencil offsets");
     entries = gl::makeBuffer(arrays.entries, "stencil entries");
     parents = gl::makeBuffer(arrays.parents, "parents of vertices");

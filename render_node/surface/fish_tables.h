@@ -173,6 +173,7 @@ struct FishTables {
     // Workgroups of fish_cull.comp for the whole school.
     std::size_t groups = 0;
     gl::Buffer cast, recorded, firstEntries, entries, parents, places, indices;
+    gl::Texture poses{GL_TEXTURE_BUFFER};  // the recorded points
     gl::Buffer fewVertices, fewIndices;
 };
 

@@ -354,7 +354,7 @@ void SchoolSurface::Parts::sort() const {
 void SchoolSurface::Parts::evaluate(std::size_t turn, std::size_t groupsOffset) const {
     const gl::Stage stage{"fish surfaces"};
     gl::bindStorage(shaders::kSchoolStorage, school);
-    gl::bindStorage(shaders::kRecordedStorage, tables.recorded);
+    glBindTextureUnit(shaders::kRecordedUnit, tables.poses.name());
     gl::bindStorage(shaders::kFirstEntriesStorage, tables.firstEntries);
     gl::bindStorage(shaders::kEntriesStorage, tables.entries);
     gl::bindStorage(shaders::kCastStorage, tables.cast);
@@ -450,7 +450,7 @@ void SchoolSurface::Parts::drawPoints() const {
 
 void SchoolSurface::Parts::drawFew() const {
     gl::bindStorage(shaders::kSchoolStorage, school);
-    gl::bindStorage(shaders::kRecordedStorage, tables.recorded);
+    glBindTextureUnit(shaders::kRecordedUnit, tables.poses.name());
     glBindVertexArray(fewArray.name());
     glEnable(GL_CULL_FACE);
     drawTails(0, kMeshes, &SkinShader::fewBody);

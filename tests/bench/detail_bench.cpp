@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What culling and levels of detail save: the paper's Table 2, for the fish alone. A frame's fish
-// stages are drawn into a picture of their own, in the light of a sea without fish.
+// What culling and levels of detail save of the fish's stages alone, which are drawn into a picture
+// of their own, in the light of a sea without fish. Whole frames: whole_frame_bench.cpp.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -26,8 +26,8 @@ constexpr glm::ivec2 kPicture{480, 360};  // a channel of config/desk.txtpb
 constexpr float kPixelRadians = 0.0016F;
 constexpr std::size_t kInView = 40;
 constexpr std::size_t kMany = 250'000;
-// All of them as heroes take minutes: more are extrapolated, as each costs the same.
-constexpr std::size_t kMostMeasured = 2'000;
+// As heroes without culling.
+constexpr std::size_t kHeroes = 2'000;
 
 scene::View lookingAhead() {
     scene::View view;
@@ -110,7 +110,6 @@ class FishStages {
         draw();
         glFinish();
     }
-    [[nodiscard]] surface::SurfaceCounts counts() const { return school_->counts(); }
 
   private:
     test::RecordedSchool recorded_;
@@ -130,25 +129,6 @@ void inMilliseconds(benchmark::internal::Benchmark* bench) {
     bench->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 }
 
-// Off, the time is for 2000 fish: see lod_factor for all.
-void table2(benchmark::State& state) {
-    const auto context = contextFor();
-    const bool on = state.range(0) != 0;
-    const std::size_t fish = on ? kMany : kMostMeasured;
-    FishStages stages(fish, on);
-    stages.frame();
-    for (auto iteration : state) stages.frame();
-    state.counters["fish"] = static_cast<double>(fish);
-    state.counters["drawn"] = static_cast<double>(stages.counts().visible);
-}
-BENCHMARK(table2)->Name("table2")->ArgName("culling_lod")->Arg(1)->Apply(inMilliseconds);
-BENCHMARK(table2)
-    ->Name("table2")
-    ->ArgName("culling_lod")
-    ->Arg(0)
-    ->Iterations(1)
-    ->Apply(inMilliseconds);
-
 double processSeconds() {
     timespec time{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
@@ -164,29 +144,18 @@ double secondsOfAFrame(std::size_t fish, bool savesWork, int frames) {
 }
 
 // How many times a frame's fish cost without culling and levels of detail what they cost with.
-// Above 2000 fish, those without are extrapolated: `measured` of `fish` were drawn.
 void lodFactor(benchmark::State& state) {
     const auto context = contextFor();
-    const auto fish = static_cast<std::size_t>(state.range(0));
-    const std::size_t measured = std::min(fish, kMostMeasured);
     double on = 0, off = 0;
     for (auto iteration : state) {
-        on = secondsOfAFrame(fish, true, 5);
-        off = secondsOfAFrame(measured, false, 1) * static_cast<double>(fish) /
-              static_cast<double>(measured);
+        on = secondsOfAFrame(kHeroes, true, 5);
+        off = secondsOfAFrame(kHeroes, false, 1);
     }
     state.counters["factor"] = off / on;
     state.counters["on_ms"] = 1e3 * on;
     state.counters["off_ms"] = 1e3 * off;
-    state.counters["measured"] = static_cast<double>(measured);
 }
-BENCHMARK(lodFactor)
-    ->Name("lod_factor")
-    ->ArgName("fish")
-    ->Arg(kMostMeasured)
-    ->Arg(kMany)
-    ->Iterations(1)
-    ->Apply(inMilliseconds);
+BENCHMARK(lodFactor)->Name("fish_stages/factor")->Iterations(1)->Apply(inMilliseconds);
 
 void framePart(benchmark::State& state, void (*part)(FishStages&)) {
     const auto context = contextFor();

@@ -38,6 +38,8 @@ double bytesOfLevel(GLuint texture, GLint level) {
 }
 
 double bytesOfTexture(GLuint texture) {
+    // A buffer as a texture, which is counted as a buffer.
+    if (levelParameter(texture, 0, GL_TEXTURE_BUFFER_DATA_STORE_BINDING) != 0) return 0;
     GLint levels = 0;
     glGetTextureParameteriv(texture, GL_TEXTURE_IMMUTABLE_LEVELS, &levels);
     double bytes = 0;

@@ -167,7 +167,7 @@ TEST_F(DetailTest, fishThatSwimAwayGrowFainterEvenly) {
 }
 
 // The same frame with and without culling and levels of detail, by a metric of what people see. See
-// table2 in tests/bench for what it saves.
+// fish_stages in tests/bench for what it saves.
 TEST_F(DetailTest, peopleDoNotSeeWhatIsSaved) {
     test::Still still;
     still.camera.sizePixels = {480, 270};
