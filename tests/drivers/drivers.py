@@ -33,8 +33,8 @@ DRIVERS = CARDS | {
     "llvmpipe": ("llvmpipe", {"LIBGL_ALWAYS_SOFTWARE": "1"}),
 }
 # Each scene once and each tier, in one show that begins at the smallest tier; large scenes at small tiers.
-CHANGES = [("scene", "reef_full"), ("scene", "reef"), ("scene", "bait_ball"), ("quality", "medium"), ("quality", "high"),
-           ("scene", "empty_sea"), ("quality", "ultra"), ("scene", "reef_1998")]
+CHANGES = [("scene", "reef_full"), ("scene", "reef"), ("scene", "bait_ball"), ("quality", "medium"),
+           ("quality", "high"), ("scene", "empty_sea"), ("quality", "ultra"), ("scene", "reef_1998")]
 LEAST_PROGRAMS = 80  # that a show links; fewer, and it was not drawn
 # What the drivers of Intel and NVIDIA have for a stage; AMD's has more. OpenGL 4.5 promises 16 textures as well, but
 # only 8 storage blocks, in fragment and compute shaders alone.
