@@ -168,6 +168,7 @@ TEST_F(SchoolSurfaceTest, aSchoolThatDoesNotFitIsEvaluatedInTurns) {
     surface.update(recorded.moment());
     surface.look(clip_, {});
     EXPECT_EQ(surface.counts().visible, school.size());
+    EXPECT_EQ(surface.counts().withoutRoom, 0U);
     evaluate(surface);
     // The second turn holds two fish, from the beginning of the buffer again; the third of the
     // first turn is still there.
@@ -179,6 +180,25 @@ TEST_F(SchoolSurfaceTest, aSchoolThatDoesNotFitIsEvaluatedInTurns) {
     expect(0, kRoomFor);
     expect(1, kRoomFor + 1);
     expect(2, 2);
+}
+
+TEST_F(SchoolSurfaceTest, fishForWhichNoTurnHasRoomAreCounted) {
+    const std::size_t vertices = skin::makeLimitTable(body_, 2).vertices.size();
+    constexpr std::size_t kRoomFor = 5;
+    constexpr std::size_t kTooMany = 3;
+    std::vector<motion::PresentedFish> school;
+    for (std::uint32_t i = 0; i < kMostTurns * kRoomFor + kTooMany; ++i) {
+        school.push_back(test::fishAt({0, 0, -3}, {1, 0, 0, 0}));
+        school.back().id = i;
+    }
+    const test::RecordedSchool recorded{school};
+    SchoolSurface surface = surfaceFor(
+        recorded.traits,
+        {.culling = false, .levelsOfDetail = false, .surfaceBytes = kRoomFor * vertices * 16});
+    surface.update(recorded.moment());
+    surface.look(clip_, {});
+    EXPECT_EQ(surface.counts().visible, school.size());
+    EXPECT_EQ(surface.counts().withoutRoom, kTooMany);
 }
 
 TEST_F(SchoolSurfaceTest, anEmptySeaIsDrawnWithoutError) {
