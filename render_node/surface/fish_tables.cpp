@@ -382,10 +382,10 @@ void requireRoom(const FishArrays& arrays) {
     const std::size_t points = arrays.recorded.size();
     if (std::cmp_less_equal(points, most)) return;
     const std::size_t species = arrays.species.size();
-    throw Error(
-        std::to_string(species) + " species: their poses are " + std::to_string(points) +
-        " points, and this graphics card has room for " + std::to_string(most) + "; show " +
-        std::to_string(static_cast<std::size_t>(most) / (points / species)) + " species at most");
+    throw Error(std::to_string(species) + " species: their poses are " + std::to_string(points) +
+                " points, and this graphics card has room for " + std::to_string(most) + "; show " +
+                std::to_string(static_cast<std::size_t>(most) / (points / species)) +
+                " species at most");
 }
 
 }  // namespace
