@@ -37,37 +37,11 @@ NodeVectors inBodyFrame(const NodeVectors& pose) {
     return body;
 }
 
-namespace {
-
 // The linear system.
 
-constexpr auto kUnknowns = static_cast<std::size_t>(EnvelopeSystem::kUnknowns);
-
-// The last node that shares an equation with `node` after the elimination of all nodes before it
-// (fill-in included): the last node of the next ring.
-constexpr std::size_t lastNeighbour(std::size_t node) {
-    const std::size_t nextRingsEnd = node == 0 ? 4 : 4 * ((node - 1) / 4 + 2);
-    return nextRingsEnd < body::kNodalPoints ? nextRingsEnd : body::kNodalPoints - 1;
-}
-
-// Number of elements of each row to the right of the diagonal; the three rows of a node end at the
-// same column.
-constexpr auto kWidths = [] {
-    std::array<std::size_t, kUnknowns> widths{};
-    for (std::size_t row = 0; row < kUnknowns; ++row)
-        widths[row] = 3 * lastNeighbour(row / 3) + 2 - row;
-    return widths;
-}();
-
-}  // namespace
-
-void EnvelopeSystem::clear() {
-    rows_ = {};
-    right_ = {};
-}
-
 void EnvelopeSystem::addToDiagonal(int node, double value) {
-    for (std::size_t p = 0; p < 3; ++p) rows_[3 * static_cast<std::size_t>(node) + p][0] += value;
+    for (std::size_t p = 0; p < 3; ++p)
+        rows_.matrix[3 * static_cast<std::size_t>(node) + p][0] += value;
 }
 
 void EnvelopeSystem::addDiagonalBlock(int node, const glm::dmat3& block) {
@@ -76,7 +50,7 @@ void EnvelopeSystem::addDiagonalBlock(int node, const glm::dmat3& block) {
     const std::size_t row = 3 * static_cast<std::size_t>(node);
     for (std::size_t p = 0; p < 3; ++p)
         for (std::size_t q = p; q < 3; ++q)
-            rows_[row + p][q - p] += block[static_cast<int>(p)][static_cast<int>(q)];
+            rows_.matrix[row + p][q - p] += block[static_cast<int>(p)][static_cast<int>(q)];
 }
 
 void EnvelopeSystem::addOffDiagonalBlock(int first, int second, const glm::dmat3& block) {
@@ -84,75 +58,42 @@ void EnvelopeSystem::addOffDiagonalBlock(int first, int second, const glm::dmat3
     const std::size_t offset = 3 * static_cast<std::size_t>(second - first);
     for (std::size_t p = 0; p < 3; ++p)
         for (std::size_t q = 0; q < 3; ++q)
-            rows_[row + p][offset + q - p] += block[static_cast<int>(p)][static_cast<int>(q)];
+            rows_.matrix[row + p][offset + q - p] +=
+                block[static_cast<int>(p)][static_cast<int>(q)];
 }
 
 void EnvelopeSystem::addToRightSide(int node, const glm::dvec3& value) {
     for (std::size_t p = 0; p < 3; ++p)
-        right_[3 * static_cast<std::size_t>(node) + p] += value[static_cast<int>(p)];
+        rows_.right[3 * static_cast<std::size_t>(node) + p] += value[static_cast<int>(p)];
 }
 
 // LDL^T: about 12 thousand multiplications, where a dense solver needs 55 thousand.
 void EnvelopeSystem::solve() {
-    eliminate();
+    eliminate(rows_);
     substituteBack();
-}
-
-// Node by node: its three rows end at the same column, so that one pass subtracts all three from
-// each later row. Afterwards each row holds the inverse of its pivot and, right of it, its row of
-// D L^T. The right side is reduced in the same pass.
-void EnvelopeSystem::eliminate() {
-    for (std::size_t row = 0; row < kUnknowns; row += 3) {
-        const std::size_t end = row + kWidths[row] + 1;
-        invertPivot(row);
-        subtract<1>(row, row + 1, end);
-        invertPivot(row + 1);
-        subtract<2>(row, row + 2, end);
-        invertPivot(row + 2);
-        for (std::size_t target = row + 3; target < end; ++target) subtract<3>(row, target, end);
-    }
-}
-
-void EnvelopeSystem::invertPivot(std::size_t row) {
-    rows_[row][0] = 1 / rows_[row][0];
-}
-
-// Eliminates the unknowns row to row + count - 1, whose pivots are inverted, from the row `target`.
-// `end` is one past the last column of the rows.
-template <std::size_t count>
-void EnvelopeSystem::subtract(std::size_t row, std::size_t target, std::size_t end) {
-    std::array<double, count> factors;
-    std::array<const double*, count> sources;
-    for (std::size_t i = 0; i < count; ++i) {
-        sources[i] = rows_[row + i].data() + (target - row - i);
-        factors[i] = sources[i][0] * rows_[row + i][0];
-        right_[target] -= factors[i] * right_[row + i];
-    }
-    double* const elements = rows_[target].data();
-    for (std::size_t k = 0; k < end - target; ++k)
-        for (std::size_t i = 0; i < count; ++i) elements[k] -= factors[i] * sources[i][k];
 }
 
 // Solves D L^T x = right from the last node to the first; the three unknowns of a node first take
 // what later nodes contribute, then each other's share.
 void EnvelopeSystem::substituteBack() {
+    std::array<double, EnvelopeRows::kUnknowns>& right = rows_.right;
     for (std::size_t row = kUnknowns; row > 0;) {
         row -= 3;
-        const std::size_t end = row + kWidths[row] + 1;
+        const std::size_t end = endOfRows(row / 3);
         for (std::size_t column = row + 3; column < end; ++column)
             for (std::size_t p = 0; p < 3; ++p)
-                right_[row + p] -= rows_[row + p][column - row - p] * right_[column];
+                right[row + p] -= rows_.matrix[row + p][column - row - p] * right[column];
         for (std::size_t p = 3; p-- > 0;) {
             for (std::size_t q = p + 1; q < 3; ++q)
-                right_[row + p] -= rows_[row + p][q - p] * right_[row + q];
-            right_[row + p] *= rows_[row + p][0];
+                right[row + p] -= rows_.matrix[row + p][q - p] * right[row + q];
+            right[row + p] *= rows_.matrix[row + p][0];
         }
     }
 }
 
 glm::dvec3 EnvelopeSystem::solution(int node) const {
     const std::size_t row = 3 * static_cast<std::size_t>(node);
-    return {right_[row], right_[row + 1], right_[row + 2]};
+    return {rows_.right[row], rows_.right[row + 1], rows_.right[row + 2]};
 }
 
 namespace {
@@ -189,64 +130,78 @@ UnitState stateOf(const Spring& spring, const Unit& unit, double activation, con
     return {stiffness, spring.restLength};
 }
 
-// A Voigt unit: spring and damper in parallel, acting along r from the first node to the second:
+// What does not change during a step: the fish, its control, and what that makes of its units.
+struct StepInput {
+    const BiomechanicalFish& fish;
+    const MotorControl& control;
+    std::array<UnitState, kUnits> units;
+    double halfStep = 0;
+};
+
+// Voigt units: spring and damper in parallel, each acting along r from its first node to the
+// second:
 //     force = stiffness (1 - length / l) r + damping (u.v) u,  u = r / |r|,  v = dr/dt,
 // where l is the mean of the lengths at the two ends of the step. With |r| in place of l this would
 // be the plain midpoint rule; with l, the work of the spring in the step is the change of its
 // energy exactly, so that stiff springs cannot gain energy from the rule at any step (Greenspan
-// 1984; Simo & Tarnow 1992). `now` has the stiffness and the rest length, with any contraction.
+// 1984; Simo & Tarnow 1992). Each has the stiffness and the rest length of the step, with any
+// contraction.
 //
 // The matrix has, with t = stiffness (1 - length / l),
 //     h/2 (stiffness u u^T + g (1 - u u^T)) + damping u u^T,  g = max(0, t).
 // In compression t is negative; it is left out there, which keeps the system positive definite at
 // any step. So is the change of the damping force with the direction u, which is not symmetric.
 // Both slow the convergence of the iteration a little and leave its limit as it is.
-void addSpring(const Spring& spring,
-               const UnitState& now,
-               double damping,
-               double halfStep,
-               const FishState& middle,
-               EnvelopeSystem& system) {
-    const glm::dvec3 r = middle.positions[spring.second] - middle.positions[spring.first];
-    const glm::dvec3 v = middle.velocities[spring.second] - middle.velocities[spring.first];
-    const double ends = (glm::length(r - halfStep * v) + glm::length(r + halfStep * v)) / 2;
-    const double distance = glm::length(r);
-    const glm::dvec3 u = r / distance;
-    const double tension = now.stiffness * (1 - now.restLength / ends);
-    const double rate = damping * glm::dot(u, v) / distance;
-    const double geometric = std::max(0.0, tension);
-    const double along = halfStep * (now.stiffness - geometric) + damping;
-    const glm::dmat3 block = glm::outerProduct(along * u, u) + glm::dmat3(halfStep * geometric);
-    const glm::dvec3 force = (tension + rate) * r;
-    system.addDiagonalBlock(spring.first, block);
-    system.addDiagonalBlock(spring.second, block);
-    system.addOffDiagonalBlock(spring.first, spring.second, -block);
-    system.addToRightSide(spring.first, force);
-    system.addToRightSide(spring.second, -force);
+void addSprings(const StepInput& in, const FishState& middle, EnvelopeSystem& system) {
+    UnitColumns units;
+    for (std::size_t i = 0; i < kUnits; ++i) {
+        const Spring& spring = in.fish.springs[i];
+        units.offset.set(i, middle.positions[spring.second] - middle.positions[spring.first]);
+        units.rate.set(i, middle.velocities[spring.second] - middle.velocities[spring.first]);
+        units.stiffness[i] = in.units[i].stiffness;
+        units.restLength[i] = in.units[i].restLength;
+    }
+    pullUnits(units, in.fish.damping, in.halfStep);
+    for (std::size_t i = 0; i < kUnits; ++i) {
+        const Spring& spring = in.fish.springs[i];
+        const glm::dvec3 u = units.direction[i];
+        const glm::dmat3 block =
+            glm::outerProduct(units.along[i] * u, u) + glm::dmat3(units.across[i]);
+        const glm::dvec3 force = units.pull[i] * units.offset[i];
+        system.addDiagonalBlock(spring.first, block);
+        system.addDiagonalBlock(spring.second, block);
+        system.addOffDiagonalBlock(spring.first, spring.second, -block);
+        system.addToRightSide(spring.first, force);
+        system.addToRightSide(spring.second, -force);
+    }
 }
 
 // Drag acts only on a face that advances into the water (Tu & Terzopoulos 1994), here with the
 // square of its normal speed: -drag A (n.v)^2 n, where A is the area, n the outward normal and v
 // the mean velocity of the three nodes. A third of it acts on each node. The derivative by places
 // is left out of the matrix; it is small beside that by velocities.
-void addDrag(const WettedFace& face, const FishState& middle, EnvelopeSystem& system) {
-    const auto [a, b, c] = face.nodes;
-    const glm::dvec3 areaVector = glm::cross(middle.positions[b] - middle.positions[a],
-                                             middle.positions[c] - middle.positions[a]) /
-                                  2.0;
-    const glm::dvec3 velocity =
-        (middle.velocities[a] + middle.velocities[b] + middle.velocities[c]) / 3.0;
-    const double flow = glm::dot(areaVector, velocity);  // area * normal speed
-    if (flow <= 0) return;
-    const double areaSquared = glm::dot(areaVector, areaVector);
-    const glm::dvec3 scaled = face.drag / 3 * flow / areaSquared * areaVector;
-    const glm::dmat3 block = glm::outerProduct(2.0 / 3 * scaled, areaVector);
-    for (std::size_t i = 0; i < 3; ++i) {
-        system.addDiagonalBlock(face.nodes[i], block);
-        const auto next = face.nodes[(i + 1) % 3];
-        system.addOffDiagonalBlock(
-            std::min(face.nodes[i], next), std::max(face.nodes[i], next), block);
-        system.addToRightSide(face.nodes[i], -flow * scaled);
+void addDrag(const BiomechanicalFish& fish, const FishState& middle, EnvelopeSystem& system) {
+    FaceColumns faces;
+    for (std::size_t i = 0; i < kDragFaces; ++i) {
+        const auto [a, b, c] = fish.faces[i].nodes;
+        faces.second.set(i, middle.positions[b] - middle.positions[a]);
+        faces.third.set(i, middle.positions[c] - middle.positions[a]);
+        faces.velocities.set(i, middle.velocities[a] + middle.velocities[b] + middle.velocities[c]);
+        faces.drag[i] = fish.faces[i].drag;
+    }
+    resistFaces(faces);
+    for (std::size_t i = 0; i < kDragFaces; ++i) {
+        if (faces.flow[i] <= 0) continue;
+        const glm::dvec3 scaled = faces.scaled[i];
+        const glm::dmat3 block = glm::outerProduct(2.0 / 3 * scaled, faces.area[i]);
+        const auto& nodes = fish.faces[i].nodes;
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            system.addDiagonalBlock(nodes[corner], block);
+            const auto next = nodes[(corner + 1) % 3];
+            system.addOffDiagonalBlock(
+                std::min(nodes[corner], next), std::max(nodes[corner], next), block);
+            system.addToRightSide(nodes[corner], -faces.flow[i] * scaled);
+        }
     }
 }
 
@@ -411,20 +366,11 @@ void addInertia(const BiomechanicalFish& fish,
     }
 }
 
-// What does not change during a step: the fish, its control, and what that makes of its units.
-struct StepInput {
-    const BiomechanicalFish& fish;
-    const MotorControl& control;
-    std::array<UnitState, kUnits> units;
-    double halfStep = 0;
-};
-
 // Forces on the body from within and from the water.
 void addForces(const StepInput& in, const FishState& middle, EnvelopeSystem& system) {
     const BiomechanicalFish& fish = in.fish;
-    for (std::size_t i = 0; i < kUnits; ++i)
-        addSpring(fish.springs[i], in.units[i], fish.damping, in.halfStep, middle, system);
-    for (const WettedFace& face : fish.faces) addDrag(face, middle, system);
+    addSprings(in, middle, system);
+    addDrag(fish, middle, system);
     if (in.control.rightsItself) addRighting(fish, middle, system);
     const PoseFrame frame = frameOf(middle.positions);
     if (in.control.rowing.rows) {

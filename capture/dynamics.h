@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "capture/biomechanical_fish.h"
+#include "capture/step_lanes.h"
 #include "common/body/fish_body.h"
 
 namespace aquarama::capture {
@@ -29,17 +30,14 @@ struct PoseFrame {
 
 // Stores only the upper triangle, and of each row only the elements that the fish's connections can
 // fill: no unit reaches beyond the next ring, so a row has at most 24 elements (half-bandwidth 23),
-// on average 16. Rows are contiguous, so that the compiler can vectorise an elimination. Use: add
-// all terms, solve() once, read solution(); clear() before the next use. A value on the stack of
-// one thread; it allocates nothing.
+// on average 16. Use: add all terms, solve() once, read solution(); clear() before the next use. A
+// value on the stack of one thread; it allocates nothing.
 class EnvelopeSystem {
   public:
     static constexpr int kUnknowns = 3 * body::kNodalPoints;
-    static constexpr int kLongestRow = 24;
 
     // Sets all terms to zero.
-    EnvelopeSystem() { clear(); }
-    void clear();
+    void clear() { rows_ = {}; }
 
     // Adds `value` to the three diagonal elements of a node: a term that is the same in x, y and z.
     void addToDiagonal(int node, double value);
@@ -54,15 +52,9 @@ class EnvelopeSystem {
     [[nodiscard]] glm::dvec3 solution(int node) const;
 
   private:
-    void eliminate();
-    void invertPivot(std::size_t row);
-    template <std::size_t count>
-    void subtract(std::size_t row, std::size_t target, std::size_t end);
     void substituteBack();
 
-    // rows_[i][k] is the element (i, i + k) of the matrix.
-    std::array<std::array<double, kLongestRow>, kUnknowns> rows_;
-    std::array<double, kUnknowns> right_;  // right side, then solution
+    EnvelopeRows rows_;  // its right side is the solution at the end
 };
 
 }  // namespace aquarama::capture

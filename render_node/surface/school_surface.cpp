@@ -7,9 +7,12 @@
 #include <future>
 #include <numeric>
 #include <optional>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <unistd.h>
 
 #include "common/body/side_view.h"
 #include "render_node/gl/handle.h"
@@ -159,17 +162,29 @@ struct SpeciesShaders {
     }
 };
 
+// The numbers below `count` in an order of this process's own. Nodes of one machine share the cache
+// of programs, and wait for a program that another compiles; so they compile different ones.
+std::vector<std::size_t> ownOrder(std::size_t count) {
+    std::vector<std::size_t> order(count);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::shuffle(order, std::mt19937(static_cast<std::uint32_t>(getpid())));
+    return order;
+}
+
 std::vector<SpeciesShaders> shadersOf(std::span<const SchoolSpecies> cast,
                                       const gl::Replacements& tier) {
+    std::vector<std::optional<SkinShader>> own(cast.size());
+    std::vector<std::optional<SkinShader>> drawn(cast.size());
+    for (const std::size_t i : ownOrder(cast.size())) {
+        own[i].emplace(cast[i], Worn::Own, tier);
+        if (cast[i].takesDrawings) drawn[i].emplace(cast[i], Worn::Drawing, tier);
+    }
     std::vector<SpeciesShaders> all;
     std::size_t firstFish = 0;
-    for (const SchoolSpecies& species : cast) {
-        all.push_back({.own = {species, Worn::Own, tier},
-                       .drawn = {},
-                       .firstFish = firstFish,
-                       .fish = species.fish.size()});
-        if (species.takesDrawings) all.back().drawn.emplace(species, Worn::Drawing, tier);
-        firstFish += species.fish.size();
+    for (std::size_t i = 0; i < cast.size(); ++i) {
+        const std::size_t fish = cast[i].fish.size();
+        all.push_back({*std::move(own[i]), std::move(drawn[i]), firstFish, fish});
+        firstFish += fish;
     }
     return all;
 }

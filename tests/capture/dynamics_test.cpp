@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -14,6 +16,7 @@
 #include "tests/capture/dense.h"
 #include "tests/capture/disturbed.h"
 #include "tests/support/all_species.h"
+#include "tests/support/instruction_sets.h"
 #include "tests/support/scad.h"
 
 namespace aquarama::capture {
@@ -117,6 +120,30 @@ TEST(Dynamics, exchangedMusclesSwimTheMirroredPathInEverySpecies) {
                 << species.name;
         }
     }
+}
+
+TEST(Dynamics, everyInstructionSetSwimsTheSamePath) {
+    const BiomechanicalFish fish = makeBiomechanicalFish(test::scad());
+    std::optional<FishState> first;
+    for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        test::useOnly(target);
+        FishState state = stateAtRest(fish);
+        for (int i = 0; i < 500; ++i) {
+            const double seconds = i * longestStepSeconds(fish);
+            const double beat = test::scad().swim.fast.beatHertz;
+            step(fish,
+                 {.muscles = beatAt(test::scad().swim, 1, beat * seconds),
+                  .fins = {},
+                  .rowing = {},
+                  .tone = {}},
+                 longestStepSeconds(fish),
+                 state);
+        }
+        if (!first) first = state;
+        EXPECT_EQ(state.positions, first->positions) << hwy::TargetName(target);
+        EXPECT_EQ(state.velocities, first->velocities) << hwy::TargetName(target);
+    }
+    test::useOnly(0);
 }
 
 TEST(Dynamics, swimsInAPlane) {

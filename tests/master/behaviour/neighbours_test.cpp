@@ -11,7 +11,7 @@
 #include "common/place/place.h"
 #include "master/behaviour/grids.h"
 #include "tests/master/behaviour/scattered_school.h"
-#include "tests/master/world/instruction_sets.h"
+#include "tests/support/instruction_sets.h"
 
 namespace aquarama::behaviour {
 namespace {
@@ -137,23 +137,23 @@ TEST(Neighbours, everyInstructionSetFindsWhatPlainCodeFinds) {
                              School(scatteredSchool(6, 1500, ball), kWater)};
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
         SCOPED_TRACE(hwy::TargetName(target));
-        world::useOnly(target);
+        test::useOnly(target);
         for (const School& school : schools) expectVectorsEqualPlainCode(school);
     }
-    world::useOnly(0);
+    test::useOnly(0);
 }
 
 // How many fish are looked at together is said by the code that looks, as it was compiled.
 TEST(Neighbours, theSearchUsesTheProcessorsVectors) {
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
         SCOPED_TRACE(hwy::TargetName(target));
-        world::useOnly(target);
+        test::useOnly(target);
         const bool isPlain = target == HWY_SCALAR || target == HWY_EMU128;
         const bool isWide = target <= HWY_AVX3 && target >= HWY_AVX3_DL;
         const std::size_t lanes = isPlain ? 1 : isWide ? 16 : target == HWY_AVX2 ? 8 : 4;
         EXPECT_EQ(nearestVisibleLanes(), lanes);
     }
-    world::useOnly(0);
+    test::useOnly(0);
     EXPECT_GE(nearestVisibleLanes(), 4U) << "what is used where nothing is forbidden";
 }
 

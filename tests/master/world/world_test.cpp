@@ -9,7 +9,7 @@
 
 #include "common/base/log.h"
 #include "tests/master/world/captured_fish.h"
-#include "tests/master/world/instruction_sets.h"
+#include "tests/support/instruction_sets.h"
 
 namespace aquarama::world {
 namespace {
@@ -33,11 +33,11 @@ TEST(World, oneSeedIsOneWorldOnAnyNumberOfThreads) {
 TEST(World, oneSeedIsOneWorldOnEveryInstructionSet) {
     std::set<std::uint64_t> hashes;
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-        useOnly(target);
+        test::useOnly(target);
         hashes.insert(hashAfter(schoolWorld(1, 51), 600));
         EXPECT_EQ(hashes.size(), 1U) << hwy::TargetName(target);
     }
-    useOnly(0);  // all again
+    test::useOnly(0);  // all again
 }
 
 TEST(World, anotherSeedIsAnotherWorld) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which instruction set the vectorised step may use.
+// Which instruction set vectorised functions may use.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 #include <hwy/highway.h>
 #include <hwy/targets.h>
 
-namespace aquarama::world {
+namespace aquarama::test {
 
 // One of hwy::SupportedAndGeneratedTargets(); 0 allows all that the processor has.
 inline void useOnly(std::int64_t target) {
@@ -15,4 +15,4 @@ inline void useOnly(std::int64_t target) {
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
-}  // namespace aquarama::world
+}  // namespace aquarama::test
