@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include <lo/lo_lowlevel.h>
@@ -24,7 +25,8 @@ constexpr std::size_t kBundleHeadBytes = 16;  // with its time
 
 // Bytes that are not read yet.
 using Rest = std::span<const std::byte>;
-using Message = std::unique_ptr<void, decltype(&lo_message_free)>;
+// lo_message is a pointer, to void until liblo 0.31 and to a struct since.
+using Message = std::unique_ptr<std::remove_pointer_t<lo_message>, decltype(&lo_message_free)>;
 
 std::string_view textOf(Rest bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
