@@ -15,8 +15,8 @@ namespace aquarama::capture {
 // The widest vector, in numbers. Columns and rows have room for a whole one behind their last.
 inline constexpr std::size_t kMostDoubles = 8;
 
-// A column with an element for each of `count`, and room for whole vectors. Nothing is set at first,
-// as that would take a tenth of a step; what is behind the last element does not matter.
+// A column with an element for each of `count`, and room for whole vectors. Nothing is set at
+// first, as that would take a tenth of a step; what is behind the last element does not matter.
 template <std::size_t count>
 using Column = std::array<double, (count + kMostDoubles - 1) / kMostDoubles * kMostDoubles>;
 
@@ -25,11 +25,13 @@ template <std::size_t count>
 struct VectorColumns {
     Column<count> x, y, z;
 
+    // Writes vector i.
     void set(std::size_t i, const glm::dvec3& v) {
         x[i] = v.x;
         y[i] = v.y;
         z[i] = v.z;
     }
+    // Reads vector i.
     [[nodiscard]] glm::dvec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
 };
 
