@@ -175,6 +175,28 @@ void removeLeftFolders() {
     }
 }
 
+ArrivingFiles::ArrivingFiles(fs::path folder)
+    : folder_{std::move(folder)}, aside_{folder_ / ".arriving"} {
+    requireWritableFolder(folder_);
+}
+
+ArrivingFiles::~ArrivingFiles() {
+    std::error_code none;
+    fs::remove_all(aside_, none);
+}
+
+void ArrivingFiles::settle() const {
+    std::vector<fs::path> entries;
+    for (const fs::directory_entry& entry : fs::directory_iterator(aside_))
+        entries.push_back(entry.path());
+    for (const fs::path& entry : entries) {
+        std::error_code failure;
+        const fs::path target = folder_ / entry.filename();
+        fs::rename(entry, target, failure);
+        if (failure) throw Error(target.string() + ": " + whyNotWritten(failure.value()));
+    }
+}
+
 std::uint64_t freeBytesAt(fs::path path) {
     std::error_code error;
     while (path.has_parent_path() && path != path.parent_path() && !fs::exists(path, error))

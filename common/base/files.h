@@ -61,6 +61,24 @@ class TemporaryFolder {
 // Removes the temporary folders that killed processes have left. Called when a program starts.
 void removeLeftFolders();
 
+// Files that appear in a folder together: they are written into aside(), and settle() renames what
+// is there into the folder. Without settle() the folder stays as it was.
+class ArrivingFiles {
+  public:
+    // Creates the folder where it is missing. Throws Error where no file can be written into it.
+    explicit ArrivingFiles(std::filesystem::path folder);
+    ~ArrivingFiles();
+    ArrivingFiles(const ArrivingFiles&) = delete;
+    ArrivingFiles& operator=(const ArrivingFiles&) = delete;
+    // A folder within the folder.
+    [[nodiscard]] const std::filesystem::path& aside() const { return aside_; }
+    // Throws Error where a name is a folder's there already.
+    void settle() const;
+
+  private:
+    std::filesystem::path folder_, aside_;
+};
+
 // Free bytes for this user on the disk of a path, which need not exist yet; 0 where unknown.
 [[nodiscard]] std::uint64_t freeBytesAt(std::filesystem::path path);
 
