@@ -29,6 +29,7 @@ void addMaster(CommandLine& line);   // the master alone
 void addStandby(CommandLine& line);  // the master that takes over
 void addNode(CommandLine& line);     // hands over to aquarama-node
 void addKeyCommands(CommandLine& line);
+void addHall(CommandLine& line);
 void addDoctor(CommandLine& line);
 void addStatus(CommandLine& line);
 void addSet(CommandLine& line);

@@ -24,7 +24,7 @@ const std::array kGroups{
     Group{"While a show runs",
           {addConsole, addTouch, addGuests, addDoctor, addStatus, addSet, addPilot, addExplain}},
     Group{"A show on several machines, one process each",
-          {addMaster, addStandby, addNode, addKeyCommands}},
+          {addMaster, addStandby, addNode, addKeyCommands, addHall}},
     Group{"Files",
           {addNewRig,
            addCheck,
