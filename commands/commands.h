@@ -31,6 +31,7 @@ void addNode(CommandLine& line);     // hands over to aquarama-node
 void addKeyCommands(CommandLine& line);
 void addHall(CommandLine& line);
 void addDoctor(CommandLine& line);
+void addSchedule(CommandLine& line);
 void addStatus(CommandLine& line);
 void addSet(CommandLine& line);
 void addPilot(CommandLine& line);

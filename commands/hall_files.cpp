@@ -13,6 +13,7 @@
 
 #include "common/base/files.h"
 #include "common/base/log.h"
+#include "common/config/calendar.h"
 #include "common/config/hours.h"
 #include "common/config/keys.h"
 #include "common/config/rig.h"
@@ -106,31 +107,15 @@ void addScenes(LeavingFiles& files,
                const config::Rig& rig,
                const std::string& rigPath,
                const fs::path& place,
-               const std::vector<std::string>& names) {
-    const fs::path source = config::scenePathOf(rig, rigPath);
-    addScene(files, source.string(), place);
-    for (const std::string& name : names) {
-        const fs::path other = source.parent_path() / (name + ".txtpb");
-        if (other == source) continue;
-        if (!fs::is_regular_file(other))
-            throw Error(other.string() + ": is not there, and the hours of " + rigPath +
-                        " name this scene; put it there, or correct the hours");
-        addScene(files, other.string(), place.parent_path() / other.filename());
-    }
-}
-
-// Scenes that the hours of a rig name; none without hours.
-std::vector<std::string> scenesOf(const std::string& hoursPath) {
-    if (!fs::exists(hoursPath)) return {};
+               const std::string& hoursPath) {
+    const std::string own = config::scenePathOf(rig, rigPath);
+    addScene(files, own, place);
+    if (!fs::exists(hoursPath)) return;
     const config::Hours hours = config::parseHours(config::readTextFile(hoursPath), hoursPath);
-    std::set<std::string> names;
-    const auto take = [&](const std::vector<config::OpenSpan>& spans) {
-        for (const config::OpenSpan& span : spans)
-            if (!span.scene.empty()) names.insert(span.scene);
-    };
-    take(hours.open);
-    for (const config::ExceptionDay& day : hours.exceptions) take(day.open);
-    return {names.begin(), names.end()};
+    for (const std::string& name : config::scenesOf(hours)) {
+        const std::string other = config::scenePathOf(name, rigPath, rig.scene);
+        if (other != own) addScene(files, other, place.parent_path() / fs::path(other).filename());
+    }
 }
 
 // The regular files of a folder, by name, under `prefix`; none where there is no such folder.
@@ -231,7 +216,7 @@ TravellingHall readHall(const std::string& rigPath, bool drawings) {
     }
     const fs::path scene = LeavingFiles::placeOf(place, rig.scene, "scenes");
     text.moveName(rig.scene, scene);
-    addScenes(files, rig, rigPath, scene, scenesOf(SecretPlaces(rigPath).hours));
+    addScenes(files, rig, rigPath, scene, SecretPlaces(rigPath).hours);
     files.add(place, rigPath, bytesOf(text.text()));
     return {place.string(), files.take(), secretsOf(rigPath, drawings)};
 }
