@@ -243,6 +243,15 @@ ProgramHandle linkedOrLoaded(std::span<const ShaderStage> stages) {
     return program ? *std::move(program) : linked(stages);
 }
 
+// Tells programs apart, in debuggers too: "coral.vert coral.frag light_fine.glsl".
+std::string labelOf(const std::vector<std::string>& shaderFiles, const Replacements& replacements) {
+    std::string label = shaderFiles.front();
+    for (auto file = shaderFiles.begin() + 1; file != shaderFiles.end(); ++file)
+        label += " " + *file;
+    for (const Replacement& replacement : replacements) label += " " + replacement.by;
+    return label;
+}
+
 }  // namespace
 
 ShaderHandle compileShader(const std::string& file,
@@ -269,7 +278,7 @@ ProgramHandle makeProgram(const std::vector<std::string>& shaderFiles,
     for (const std::string& file : shaderFiles)
         stages.push_back({file, expand(file, shaderSource, replacements)});
     ProgramHandle program = linkedOrLoaded(stages);
-    glObjectLabel(GL_PROGRAM, program.name(), -1, shaderFiles.front().c_str());
+    glObjectLabel(GL_PROGRAM, program.name(), -1, labelOf(shaderFiles, replacements).c_str());
     return program;
 }
 

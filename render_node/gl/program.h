@@ -98,7 +98,8 @@ using ShaderHandle = Handle<ShaderTraits>;
                                          const ReadShader& read = shaderSource);
 
 // Compiles and links the shaders, or loads the driver's binary that an earlier run of this user has
-// cached. The first name labels the program. Needs a current context. Throws Error as above.
+// cached. The names, and those of the replacements, label the program. Needs a current context.
+// Throws Error as above.
 [[nodiscard]] ProgramHandle makeProgram(const std::vector<std::string>& shaderFiles,
                                         const Replacements& replacements = {});
 

@@ -37,7 +37,15 @@ double bytesOfLevel(GLuint texture, GLint level) {
     return static_cast<double>(texels * bits * samples) / 8;
 }
 
-double bytesOfTexture(GLuint texture) {
+double bytesOfBuffer(GLuint buffer) {
+    GLint64 bytes = 0;
+    glGetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &bytes);
+    return static_cast<double>(bytes);
+}
+
+}  // namespace
+
+double textureBytes(unsigned texture) {
     // A buffer as a texture, which is counted as a buffer.
     if (levelParameter(texture, 0, GL_TEXTURE_BUFFER_DATA_STORE_BINDING) != 0) return 0;
     GLint levels = 0;
@@ -47,19 +55,10 @@ double bytesOfTexture(GLuint texture) {
     return bytes;
 }
 
-double bytesOfBuffer(GLuint buffer) {
-    GLint64 bytes = 0;
-    glGetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &bytes);
-    return static_cast<double>(bytes);
-}
-
-}  // namespace
-
 CardMemory cardMemory() {
     CardMemory memory;
     for (GLuint name = 1; name < kNames; ++name) {
-        if (glIsTexture(name) == GL_TRUE)
-            memory.textureMebibytes += bytesOfTexture(name) / kMebibyte;
+        if (glIsTexture(name) == GL_TRUE) memory.textureMebibytes += textureBytes(name) / kMebibyte;
         if (glIsBuffer(name) == GL_TRUE) memory.bufferMebibytes += bytesOfBuffer(name) / kMebibyte;
     }
     return memory;

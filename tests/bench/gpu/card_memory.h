@@ -12,6 +12,9 @@ struct CardMemory {
 };
 [[nodiscard]] CardMemory cardMemory();
 
+// Of all levels, by their formats and sizes; 0 for a buffer as a texture.
+[[nodiscard]] double textureBytes(unsigned texture);
+
 // What is free on the whole card, where the driver tells (NVX_gpu_memory_info).
 [[nodiscard]] std::optional<double> freeMebibytes();
 

@@ -103,5 +103,54 @@ TEST(GpuBench, writesFiguresAndPicturesOfWhatItDrew) {
     fs::remove_all(out);
 }
 
+// Rows of counts.csv, by stage and program; the first cell of each is the row's number of calls.
+std::map<std::string, std::vector<std::uint64_t>> countsIn(const fs::path& csv) {
+    std::ifstream file(csv);
+    std::string line;
+    std::getline(file, line);
+    EXPECT_EQ(line,
+              "wall,stage,program,calls,vertices,primitives,fragments,samples,target_samples,"
+              "pixel_bytes,computed,bytes");
+    std::map<std::string, std::vector<std::uint64_t>> counts;
+    while (std::getline(file, line)) {
+        std::istringstream rest(line);
+        std::string wall;
+        std::string stage;
+        std::string program;
+        std::getline(rest, wall, ',');
+        std::getline(rest, stage, ',');
+        std::getline(rest, program, ',');
+        for (std::string cell; std::getline(rest, cell, ',');)
+            counts[stage + ": " + program].push_back(std::stoull(cell));
+    }
+    return counts;
+}
+
+TEST(GpuBench, countsWhatCallsOfAFrameGiveACardToDo) {
+    const fs::path out =
+        fs::temp_directory_path() / ("aquarama-counts-" + std::to_string(getpid()));
+    const Ended ended = run("--software --counts --only desk/reef_1998/low --out " + out.string());
+    ASSERT_EQ(ended.status, 0) << ended.output;
+    auto counts = countsIn(out / "counts.csv");
+    const std::vector<std::uint64_t>& warp = counts["warp: quad.vert project.frag"];
+    ASSERT_EQ(warp.size(), 9U);
+    constexpr std::uint64_t kPixels = 3 * 480 * 360;  // of the desk
+    EXPECT_EQ(warp[0], 3U) << "calls";
+    EXPECT_EQ(warp[1], 9U) << "vertices";
+    EXPECT_GE(warp[3], kPixels) << "fragments";
+    EXPECT_EQ(warp[4], kPixels) << "samples";
+    EXPECT_EQ(warp[5], 1U) << "samples of a pixel";
+    EXPECT_EQ(warp[6], 4U) << "bytes of a pixel";
+    const std::vector<std::uint64_t>& cull = counts["fish sort: fish_cull.comp"];
+    ASSERT_EQ(cull.size(), 9U);
+    EXPECT_GT(cull[7], 0U);
+    EXPECT_EQ(cull[7] % (3 * 64), 0U) << "whole groups, alike on each channel";
+    const std::vector<std::uint64_t>& upload = counts["fish records: upload"];
+    ASSERT_EQ(upload.size(), 9U);
+    EXPECT_GT(upload[8], 0U);
+    EXPECT_TRUE(fs::exists(out / "shaders.txt"));
+    fs::remove_all(out);
+}
+
 }  // namespace
 }  // namespace aquarama::bench

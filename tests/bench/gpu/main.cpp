@@ -23,8 +23,11 @@
 #include "common/base/picture.h"
 #include "common/wall/wall.h"
 #include "render_node/gl/context.h"
+#include "tests/bench/gpu/call_counter.h"
 #include "tests/bench/gpu/card_memory.h"
+#include "tests/bench/gpu/counted_wall.h"
 #include "tests/bench/gpu/sea.h"
+#include "tests/bench/gpu/shader_log.h"
 #include "tests/bench/gpu/wall_timing.h"
 #include "tests/bench/machine.h"
 #include "tests/support/golden_stills.h"
@@ -42,6 +45,7 @@ struct Options {
     fs::path out = "build/gpu";
     std::vector<std::string> only;
     bool software = false;
+    bool counts = false;
 
     [[nodiscard]] bool wants(const std::string& name) const {
         return only.empty() || std::ranges::any_of(only, [&](const std::string& part) {
@@ -69,6 +73,9 @@ constexpr Extent kTrial{.ticksBefore = 2,
                         .channels = 1,
                         .smaller = 16,
                         .fewer = 1000};
+
+// Of walls whose calls are counted.
+constexpr Extent kCounted{.frames = 2, .frameTimes = {}};
 
 struct SeaChoice {
     const char* name;
@@ -152,63 +159,92 @@ double sumOf(const bench::StageTimes& stages) {
     return sum;
 }
 
+std::vector<NamedWall> wallsOf(const Extent& ofCards, const Extent& ofDesk) {
+    using enum config::QualityTier;
+    return {wallOf("theatre", "config/theatre.txtpb", ofCards, {Medium, High, Ultra}),
+            wallOf("eight_4k", "tests/bench/gpu/eight_4k.txtpb", ofCards, {Medium, High, Ultra}),
+            wallOf("desk", "config/desk.txtpb", ofDesk, {Low})};
+}
+
+std::string nameOf(const NamedWall& wall, const SeaChoice& sea, config::QualityTier tier) {
+    return "gpu/" + wall.name + "/" + sea.name + "/" + std::string(aquarama::config::nameOf(tier));
+}
+
+bench::Sea made(const SeaChoice& choice, const Extent& extent) {
+    const auto fish = choice.fish ? std::optional{*choice.fish / extent.fewer} : std::nullopt;
+    return bench::makeSea(test::sourceFolder() + "/config/scenes/" + choice.scene + ".txtpb",
+                          fish,
+                          extent.ticksBefore,
+                          extent.frames);
+}
+
+// Calls for each sea on each wall that is wanted; a sea is made once for all tiers of a wall.
+template <class Measure>
+void eachWanted(const Options& options,
+                const std::vector<NamedWall>& walls,
+                const Measure& measure) {
+    for (const SeaChoice& choice : kSeas)
+        for (const NamedWall& wall : walls) {
+            std::optional<bench::Sea> sea;
+            for (const config::QualityTier tier : wall.tiers) {
+                const std::string name = nameOf(wall, choice, tier);
+                if (!options.wants(name)) continue;
+                if (!sea) sea = made(choice, wall.extent);
+                measure(name, *sea, wall, tier);
+            }
+        }
+}
+
+void refuseErrors(const std::string& name) {
+    if (const GLenum error = glGetError(); error != GL_NO_ERROR)
+        throw Error(name + ": OpenGL error " + std::to_string(error) +
+                    " while it was drawn; leave it out by --only");
+}
+
+std::ofstream opened(const fs::path& path) {
+    fs::create_directories(path.parent_path());
+    std::ofstream file(path);
+    if (!file) throw Error(path.string() + ": cannot be written; choose another --out");
+    return file;
+}
+
+void count(const Options& options) {
+    const fs::path path = options.out / "counts.csv";
+    std::ofstream csv = opened(path);
+    csv << bench::kCountsHead << '\n';
+    bench::ShaderLog log{options.out / "shaders.txt"};
+    bench::CallCounter counter{log};
+    eachWanted(options,
+               wallsOf(kCounted, kCounted),
+               [&](const std::string& name,
+                   const bench::Sea& sea,
+                   const NamedWall& wall,
+                   config::QualityTier tier) {
+                   bench::writeCounts(csv, name, countedWall(sea, wall.rig, tier, counter));
+                   refuseErrors(name);
+               });
+    std::printf("written: %s, and shaders.txt beside it\n", path.c_str());
+}
+
 class Measurement {
   public:
     explicit Measurement(const Options& options)
         : options_{options},
           isSoftware_{isSoftware(renderer())},
           csvPath_{options.out / (bench::fileNameOf(renderer()) + ".csv")},
-          csv_{openCsv()},
+          csv_{opened(csvPath_)},
           rows_{csv_, gl::rendererAndVersion() + ", " + bench::processorName()} {}
 
     void measure() {
         std::printf("%s, %s\n", gl::rendererAndVersion().c_str(), bench::processorName().c_str());
-        using enum config::QualityTier;
-        const Extent ofCards = isSoftware_ ? kTrial : Extent{};
-        const std::vector<NamedWall> walls{
-            wallOf("theatre", "config/theatre.txtpb", ofCards, {Medium, High, Ultra}),
-            wallOf("eight_4k", "tests/bench/gpu/eight_4k.txtpb", ofCards, {Medium, High, Ultra}),
-            wallOf("desk", "config/desk.txtpb", {}, {Low})};
-        for (const SeaChoice& choice : kSeas) measureSea(choice, walls);
+        eachWanted(options_, wallsOf(isSoftware_ ? kTrial : Extent{}, {}), [&](const auto&... of) {
+            measureWall(of...);
+        });
         compareGolden();
         std::printf("written: %s, and pictures beside it\n", csvPath_.c_str());
     }
 
   private:
-    std::ofstream openCsv() const {
-        fs::create_directories(options_.out / "golden");
-        std::ofstream csv(csvPath_);
-        if (!csv) throw Error(csvPath_.string() + ": cannot be written; choose another --out");
-        return csv;
-    }
-
-    static std::string nameOf(const NamedWall& wall,
-                              const SeaChoice& sea,
-                              config::QualityTier tier) {
-        return "gpu/" + wall.name + "/" + sea.name + "/" +
-               std::string(aquarama::config::nameOf(tier));
-    }
-
-    void measureSea(const SeaChoice& choice, const std::vector<NamedWall>& walls) {
-        for (const NamedWall& wall : walls) {
-            std::optional<bench::Sea> sea;
-            for (const config::QualityTier tier : wall.tiers) {
-                const std::string name = nameOf(wall, choice, tier);
-                if (!options_.wants(name)) continue;
-                if (!sea) sea = made(choice, wall.extent);
-                measureWall(name, *sea, wall, tier);
-            }
-        }
-    }
-
-    static bench::Sea made(const SeaChoice& choice, const Extent& extent) {
-        const auto fish = choice.fish ? std::optional{*choice.fish / extent.fewer} : std::nullopt;
-        return bench::makeSea(test::sourceFolder() + "/config/scenes/" + choice.scene + ".txtpb",
-                              fish,
-                              extent.ticksBefore,
-                              extent.frames);
-    }
-
     void measureWall(const std::string& name,
                      const bench::Sea& sea,
                      const NamedWall& wall,
@@ -289,6 +325,7 @@ class Measurement {
     }
 
     void compareGolden() {
+        fs::create_directories(options_.out / "golden");
         int within = 0;
         int compared = 0;
         for (const test::GoldenStill& golden : test::goldenStills()) {
@@ -314,12 +351,6 @@ class Measurement {
             std::printf("%d of %d pictures are those of software Mesa\n", within, compared);
     }
 
-    static void refuseErrors(const std::string& name) {
-        if (const GLenum error = glGetError(); error != GL_NO_ERROR)
-            throw Error(name + ": OpenGL error " + std::to_string(error) +
-                        " while it was drawn; leave it out by --only");
-    }
-
     const Options& options_;
     bool isSoftware_;
     fs::path csvPath_;
@@ -338,13 +369,19 @@ int main(int argc, char** argv) try {
     app.add_flag("--software",
                  options.software,
                  "also without a card: the desk as it is, the other walls tiny");
+    app.add_flag("--counts",
+                 options.counts,
+                 "no times: what each call of a frame gives a card to do, at full size");
     CLI11_PARSE(app, argc, argv);
     const Card card = openCard(options);
     if (!card.context) {
         std::printf("no GPU here: %s\n", card.lack.c_str());
         return kSkipped;
     }
-    Measurement(options).measure();
+    if (options.counts)
+        count(options);
+    else
+        Measurement(options).measure();
     return 0;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "aquarama_gpu_bench: %s\n", error.what());
