@@ -120,6 +120,8 @@ void onLabel(GLenum kind, GLuint name, GLsizei length, const GLchar* label) {
     if (kind == GL_PROGRAM) runningLog->belongsTo(label);
 }
 
+// The parameters are those of OpenGL.
+// NOLINTNEXTLINE(readability-function-size)
 void onCopy(GLuint from,
             GLuint to,
             GLint x0,

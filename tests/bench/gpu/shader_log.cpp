@@ -9,6 +9,8 @@ namespace aquarama::bench {
 
 namespace {
 
+// The parameters are those of OpenGL.
+// NOLINTNEXTLINE(readability-function-size)
 void APIENTRY onMessage(GLenum /*source*/,
                         GLenum /*type*/,
                         GLuint /*id*/,
