@@ -30,6 +30,7 @@ void addStandby(CommandLine& line);  // the master that takes over
 void addNode(CommandLine& line);     // hands over to aquarama-node
 void addKeyCommands(CommandLine& line);
 void addHall(CommandLine& line);
+void addRig(CommandLine& line);
 void addDoctor(CommandLine& line);
 void addSchedule(CommandLine& line);
 void addStatus(CommandLine& line);
