@@ -1,4 +1,4 @@
-"""The machines of a rig as an inventory, and the roll-out to them, one after the other and only while the doctor passes.
+"""The machines of a rig as an inventory, and the roll-out to them, one after the other while the doctor passes.
 
 The roles themselves need root and packages: packaging/try-fleet.sh carries them out on fresh systems.
 """
@@ -93,7 +93,7 @@ class Fleet(unittest.TestCase):
     def test_a_rig_on_one_machine_has_no_inventory(self):
         done = called(BIN / "aquarama", "rig", "inventory", ROOT / "config/desk.txtpb")
         self.assertEqual((done.returncode, done.stdout), (1, ""))
-        self.assertRegex(done.stderr, r"\Aaquarama rig inventory: \S+desk\.txtpb: listens on its own machine only.*\n\Z")
+        self.assertRegex(done.stderr, r"\Aaquarama rig inventory: \S+desk\.txtpb: listens on its own machine.*\n\Z")
 
     def test_the_playbook_can_be_read(self):
         inventory = self.write_inventory(self.write_rig())
