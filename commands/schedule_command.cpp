@@ -37,7 +37,7 @@ struct ReadSchedule {
 };
 
 // Hours have no channels, and every rig has.
-bool isRig(const std::string& text) {
+bool hasChannels(const std::string& text) {
     static const std::regex channels(R"((^|\n)\s*channels\b)");
     return std::regex_search(text, channels);
 }
@@ -60,7 +60,7 @@ ReadSchedule scheduleOf(const std::string& rigPath, const config::Rig& rig) {
 
 ReadSchedule scheduleFor(const ScheduleOptions& options) {
     const std::string text = config::readTextFile(options.file);
-    if (!isRig(text)) return scheduleIn(options.file, text);
+    if (!hasChannels(text)) return scheduleIn(options.file, text);
     return scheduleOf(options.file, config::parseRig(text, options.file));
 }
 
@@ -108,11 +108,11 @@ void sayNext(const ScheduleOptions& options) {
 }
 
 template <class Run>
-AddedCommand<ScheduleOptions> addOne(CommandLine& line,
-                                     CLI::App& parent,
-                                     const std::string& name,
-                                     const std::string& what,
-                                     Run run) {
+AddedCommand<ScheduleOptions> addQuestion(CommandLine& line,
+                                          CLI::App& parent,
+                                          const std::string& name,
+                                          const std::string& what,
+                                          Run run) {
     const auto added = line.addTo<ScheduleOptions>(parent, name, what, run);
     added.app
         .add_option("FILE", added.options.file, "a rig, whose hours the console keeps, or hours")
@@ -134,9 +134,10 @@ void addSchedule(CommandLine& line) {
         line.add<Nothing>("schedule", "what the hours of a rig say", [](const Nothing&) {
             throw CLI::RequiredError("schedule: check, now or next");
         });
-    addOne(line, schedule.app, "check", "whether the hours can be read", checkSchedule);
-    describeMoment(addOne(line, schedule.app, "now", "what is wanted of the wall", sayNow));
-    describeMoment(addOne(line, schedule.app, "next", "the ten changes that come next", sayNext));
+    addQuestion(line, schedule.app, "check", "whether the hours can be read", checkSchedule);
+    describeMoment(addQuestion(line, schedule.app, "now", "what is wanted of the wall", sayNow));
+    describeMoment(
+        addQuestion(line, schedule.app, "next", "the ten changes that come next", sayNext));
 }
 
 }  // namespace aquarama
