@@ -101,12 +101,12 @@ std::vector<ArchiveFile> openEntriesOf(Archive& archive) {
 // The files of a hall's folder, without the folder that they have in the archive.
 std::vector<ArchiveFile> filesIn(std::vector<ArchiveFile> entries, const std::string& source) {
     std::vector<ArchiveFile> files;
-    for (auto& [name, bytes] : entries) {
-        if (name == kAbout) continue;
-        const bool isFile = name.starts_with(kFiles);
-        std::string inside = isFile ? name.substr(std::string_view(kFiles).size()) : "";
-        if (!staysInside(inside)) refuseEntry(source, name);
-        files.emplace_back(std::move(inside), std::move(bytes));
+    for (ArchiveFile& entry : entries) {
+        if (entry.first == kAbout) continue;
+        const bool isFile = entry.first.starts_with(kFiles);
+        std::string inside = isFile ? entry.first.substr(std::string_view(kFiles).size()) : "";
+        if (!staysInside(inside)) refuseEntry(source, entry.first);
+        files.emplace_back(std::move(inside), std::move(entry.second));
     }
     return files;
 }

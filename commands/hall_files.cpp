@@ -222,7 +222,7 @@ TravellingHall readHall(const std::string& rigPath, bool drawings) {
 }
 
 fs::path placeHall(const TravellingHall& hall, const fs::path& folder, const std::string& source) {
-    const fs::path rig = folder / hall.rig;
+    fs::path rig = folder / hall.rig;
     const SecretPlaces places(rig.string());
     requireRoom(hall, folder, places);
     for (const ArchiveFile& secret : hall.secrets) checkSecret(secret, source);
