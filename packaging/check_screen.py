@@ -1,4 +1,4 @@
-"""check_screen.py SCREEN.ppm PICTURE.png: whether the screen's upper left corner shows the picture."""
+"""check_screen.py SCREEN.ppm PICTURE.png...: whether the screen shows them, side by side from its upper left."""
 
 import sys
 from pathlib import Path
@@ -19,15 +19,24 @@ def read_ppm(path):
     return size, data[-3 * size[0] * size[1]:]
 
 
-def share_apart(screen, picture):
-    (width, height), shown = read_ppm(screen)
-    (across, rows), wanted = read_png(picture)
-    if across > width or rows > height:
+def share_apart(screen, picture, left):
+    (width, height), shown = screen
+    (across, rows), wanted = picture
+    if left + across > width or rows > height:
         return 1.0
     apart = sum(abs(is_ - should) > MOST_APART for y in range(rows) for is_, should in zip(
-        shown[3 * y * width:3 * (y * width + across)], wanted[3 * y * across:3 * (y + 1) * across]))
+        shown[3 * (y * width + left):3 * (y * width + left + across)], wanted[3 * y * across:3 * (y + 1) * across]))
     return apart / (3 * across * rows)
 
 
+def shows(screen, pictures):
+    left = 0
+    for picture in pictures:
+        if share_apart(screen, picture, left) > MOST_SHARE:
+            return False
+        left += picture[0][0]
+    return True
+
+
 if __name__ == "__main__":
-    sys.exit(share_apart(*map(Path, sys.argv[1:])) > MOST_SHARE)
+    sys.exit(not shows(read_ppm(Path(sys.argv[1])), [read_png(Path(name)) for name in sys.argv[2:]]))

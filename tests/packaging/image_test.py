@@ -1,0 +1,100 @@
+"""The scripts of the image for a stick, with pretended disks."""
+
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+IMAGE = Path(__file__).resolve().parents[2] / "packaging/image"
+DISKS = """sda disk 7.5G USB stick
+sdb disk 238G Disk of a machine
+nvme0n1 disk 1T
+loop0 loop 440M
+sr0 rom 1G DVD
+zram0 disk 4G
+"""
+
+
+class Machine:
+    """A folder with the scripts, and programs that write down how they are called."""
+
+    def __init__(self, folder, stick="sda"):
+        self.folder, self.calls = folder, folder / "calls"
+        for script in ("install", "entry", "partition"):
+            shutil.copy(IMAGE / script, folder)
+        (folder / "version").write_text("1.2.3\n")
+        (folder / "disks").write_text(DISKS)
+        self.program("lsblk", f'[ "$1" = -no ] && echo "{stick}" || cat {folder}/disks')
+        self.program("findmnt", "echo /dev/sda1")
+        self.program("logger", "true")
+        self.program("wipefs", f'echo "wipefs $*" >>{self.calls}; exit 1')
+
+    def program(self, name, text):
+        path = self.folder / "bin" / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_text("#!/bin/sh\n" + text + "\n")
+        path.chmod(0o755)
+
+    def install(self, typed):
+        path = f"{self.folder}/bin:{os.environ['PATH']}"
+        return subprocess.run([self.folder / "install"], input=typed, capture_output=True, text=True, timeout=30,
+                              env=os.environ | {"PATH": path})
+
+    def called(self):
+        return self.calls.read_text() if self.calls.exists() else ""
+
+
+class Installer(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+
+    def test_lists_the_disks_but_for_the_stick(self):
+        said = Machine(self.folder).install("\n").stdout
+        listed = [line.split()[0] for line in said.splitlines() if line.startswith("    ")]
+        self.assertEqual(listed[:len(listed) // 2], ["sdb", "nvme0n1"])
+
+    def test_takes_no_name_that_is_not_in_the_list(self):
+        machine = Machine(self.folder)
+        for name in ("", "sda", "sd", "sdb1", "/dev/sdb", "loop0", ".*", "s.b"):
+            self.assertIn(f'there is no disk "{name}" here', machine.install(name + "\n").stdout)
+        self.assertEqual(machine.called(), "")
+
+    def test_erases_the_disk_that_was_named_and_says_when_it_cannot(self):
+        machine = Machine(self.folder)
+        said = machine.install("sdb\n").stdout
+        self.assertEqual(machine.called(), "wipefs -qaf /dev/sdb\n")
+        self.assertIn("it could not be installed on sdb", said)
+
+    def test_ends_where_it_does_not_know_its_own_stick(self):
+        machine = Machine(self.folder, stick="")
+        ended = machine.install("sdb\n")
+        self.assertNotEqual(ended.returncode, 0)
+        self.assertIn("the stick is not found", ended.stderr)
+        self.assertEqual(machine.called(), "")
+
+
+class Entry(unittest.TestCase):
+    def entry(self, mode):
+        return subprocess.run([IMAGE / "entry", "1.2.3", mode, "0a-1b"], capture_output=True, text=True,
+                              check=True).stdout
+
+    def test_names_release_mode_and_data(self):
+        lines = dict(line.split(" ", 1) for line in self.entry("show").splitlines())
+        self.assertEqual(lines["linux"], "/aquarama/1.2.3/vmlinuz")
+        words = lines["options"].split()
+        for word in ("boot=live", "live-media-path=/aquarama/1.2.3", "aquarama.mode=show", "aquarama.data=0a-1b",
+                     "panic=5", "loglevel=0"):
+            self.assertIn(word, words)
+
+    def test_only_the_show_is_black_and_starts_anew_after_a_panic(self):
+        for mode in ("install", "rescue"):
+            self.assertIn(f"aquarama.mode={mode}", self.entry(mode))
+            self.assertNotIn("panic=", self.entry(mode))
+
+
+if __name__ == "__main__":
+    unittest.main()
