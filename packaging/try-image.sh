@@ -3,10 +3,10 @@
 # from there, and returns from a broken release to the one before, in an emulated machine.
 #
 # Takes the packages that packaging/try-packages.sh RELEASE has left in build/debs/RELEASE (trixie by default), and
-# makes an image with a hall of three windows of 160 x 120 pixels with a test pattern. QEMU starts it with UEFI, without
-# KVM and with software OpenGL. The screen must show what the programs draw of those channels without a display. Leaves
-# the screens as build/image/try-*.ppm. Needs root, and the packages of packaging/packages/{bare,boot,image}.txt: without
-# them it ends with status 77, in CI with 1.
+# makes an image with a hall of three windows of 160 x 120 pixels with a test pattern. QEMU starts it with UEFI,
+# without KVM and with software OpenGL. The screen must show what the programs draw of those channels without a
+# display. Leaves the screens as build/image/try-*.ppm. Needs root, and the packages of
+# packaging/packages/{bare,boot,image}.txt: without them it ends with status 77, in CI with 1.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -78,7 +78,8 @@ power_off() { kill -KILL $inside; wait $inside 2>/dev/null || true; inside=; }
 
 # await_wall NAME: until the screen shows the wall; leaves it as try-NAME.ppm.
 await_wall() {
-    until [ -f "$work/screen.ppm" ] && python3 packaging/check_screen.py "$work/screen.ppm" build/image/hall/channel-{left,middle,right}.png; do
+    until [ -f "$work/screen.ppm" ] &&
+        python3 packaging/check_screen.py "$work/screen.ppm" build/image/hall/channel-{left,middle,right}.png; do
         kill -0 $inside 2>/dev/null || fail "the machine has ended"
         if [ $((SECONDS - began)) -ge $most_seconds ]; then
             tail -n 20 "$work/serial.log" >&2
@@ -131,7 +132,8 @@ done
 keep_screen asks
 keys vdz
 sleep 5
-[ "$(tr -d '\0' <"$work/disk.img" | head -c 1 | wc -c)" -eq 0 ] || fail "the installer writes to a disk that was not named"
+[ "$(tr -d '\0' <"$work/disk.img" | head -c 1 | wc -c)" -eq 0 ] ||
+    fail "the installer writes to a disk that was not named"
 keys vdb
 until grep -q "is installed on" "$work/serial.log"; do
     kill -0 $inside 2>/dev/null || fail "the machine has ended"
