@@ -66,6 +66,7 @@ time.sleep(1)' "$work/monitor" "$1"
 power_on() {
     local drives=() drive
     for drive in "$@"; do drives+=(-drive "file=$drive,format=raw,if=virtio"); done
+    rm -f "$work/screen.ppm" "$work/serial.log"
     cp /usr/share/OVMF/OVMF_VARS.fd "$work/vars.fd"
     qemu-system-x86_64 -accel tcg,thread=multi -cpu max -smp 2 -m 2500 -display none -vga std -nic none \
         -drive "if=pflash,format=raw,unit=0,readonly=on,file=$firmware" \
@@ -124,7 +125,7 @@ start=$(sfdisk -J "$work/stick.img" | sed -n 's/.*"start": *\([0-9]*\).*/\1/p' |
 mcopy -o -i "$work/stick.img@@$((start * 512))" "$work/loader.conf" ::loader/loader.conf
 truncate -s 6G "$work/disk.img"
 power_on "$work/stick.img" "$work/disk.img"
-until grep -q "waits for the name of a disk" "$work/serial.log"; do
+until grep -qs "waits for the name of a disk" "$work/serial.log"; do
     kill -0 $inside 2>/dev/null || fail "the machine has ended"
     [ $((SECONDS - began)) -lt $most_seconds ] || fail "the installer has not asked for a disk"
     sleep 2
@@ -135,7 +136,7 @@ sleep 5
 [ "$(tr -d '\0' <"$work/disk.img" | head -c 1 | wc -c)" -eq 0 ] ||
     fail "the installer writes to a disk that was not named"
 keys vdb
-until grep -q "is installed on" "$work/serial.log"; do
+until grep -qs "is installed on" "$work/serial.log"; do
     kill -0 $inside 2>/dev/null || fail "the machine has ended"
     [ $((SECONDS - began)) -lt $most_seconds ] || { keep_screen failed; fail "the installer has not ended"; }
     sleep 5
