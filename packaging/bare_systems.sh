@@ -69,6 +69,15 @@ clone_into() {
     git -C "$1/aquarama" checkout --quiet --detach "$commit"
 }
 
+# tell SOCKET TEXT: a line to an emulated machine, or to its monitor.
+tell() {
+    python3 -c 'import socket, sys, time
+line = socket.socket(socket.AF_UNIX)
+line.connect(sys.argv[1])
+line.sendall(sys.argv[2].encode() + b"\n")
+time.sleep(1)' "$work/$1" "$2"
+}
+
 fail() { echo "$(basename "$0"): $release: $1" >&2; exit 1; }
 
 # logged WHAT ROOT COMMAND: in the system; shows the end of the log where it fails, and ends with WHAT.

@@ -62,15 +62,6 @@ UNIT
         aquarama-hall run hall.txtpb --headless --frames 2 --pattern grid --quality low --snapshot /tmp/show"
 }
 
-# tell SOCKET TEXT: a line to the machine or its monitor.
-tell() {
-    python3 -c 'import socket, sys, time
-line = socket.socket(socket.AF_UNIX)
-line.connect(sys.argv[1])
-line.sendall(sys.argv[2].encode() + b"\n")
-time.sleep(1)' "$work/$1" "$2"
-}
-
 make_system "$release" "$root"
 mkdir "$root/aquarama"
 cp -r "$debs" "$root/debs"

@@ -53,15 +53,6 @@ RIG
     printf 'FRAMES=20\nSECONDS_TO_SHOW=1500\n' >"$hall/etc/aquarama/release.conf"
 }
 
-# tell TEXT: a line to the monitor of the machine.
-tell() {
-    python3 -c 'import socket, sys, time
-line = socket.socket(socket.AF_UNIX)
-line.connect(sys.argv[1])
-line.sendall(sys.argv[2].encode() + b"\n")
-time.sleep(1)' "$work/monitor" "$1"
-}
-
 # power_on DRIVE...: an emulated machine with these disks, the first of them a stick.
 power_on() {
     local drives=() drive
@@ -87,14 +78,14 @@ await_wall() {
             fail "$1: no wall after $most_seconds s"
         fi
         sleep 10
-        tell "screendump $work/screen.ppm"
+        tell monitor "screendump $work/screen.ppm"
     done
     keep_screen "$1"
     ! grep -a "Failed with result" "$work/serial.log" >&2 || fail "$1: a service fails"
     echo "$release: $1: the wall is on the screen $((SECONDS - began)) s after the power"
 }
 keep_screen() {
-    tell "screendump $work/screen.ppm"
+    tell monitor "screendump $work/screen.ppm"
     cp "$work/screen.ppm" "build/image/try-$1.ppm"
 }
 
@@ -115,8 +106,8 @@ entries() { mdir -b -i "$work/disk.img@@$((start * 512))" ::loader/entries | sed
 # keys TEXT: types on the keyboard of the machine, then Enter.
 keys() {
     local i
-    for ((i = 0; i < ${#1}; ++i)); do tell "sendkey ${1:i:1}"; done
-    tell "sendkey ret"
+    for ((i = 0; i < ${#1}; ++i)); do tell monitor "sendkey ${1:i:1}"; done
+    tell monitor "sendkey ret"
 }
 
 # From the stick to a disk: the entry "install", a name that is not there, then the disk's own.

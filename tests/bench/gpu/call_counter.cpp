@@ -7,6 +7,7 @@
 #include <epoxy/gl.h>
 
 #include "tests/bench/gpu/card_memory.h"
+#include "tests/bench/gpu/query_answer.h"
 
 namespace aquarama::bench {
 
@@ -22,12 +23,6 @@ constexpr std::array<GLenum, 5> kCounted{GL_VERTEX_SHADER_INVOCATIONS,
                                          GL_FRAGMENT_SHADER_INVOCATIONS,
                                          GL_COMPUTE_SHADER_INVOCATIONS,
                                          GL_SAMPLES_PASSED};
-
-std::uint64_t answerOf(unsigned query) {
-    GLuint64 answer = 0;
-    glGetQueryObjectui64v(query, GL_QUERY_RESULT, &answer);
-    return answer;
-}
 
 std::string labelOf(unsigned program) {
     std::array<char, 256> label{};

@@ -6,6 +6,8 @@
 
 #include <epoxy/gl.h>
 
+#include "tests/bench/gpu/query_answer.h"
+
 namespace aquarama::bench {
 
 namespace {
@@ -37,12 +39,6 @@ constexpr std::array<GLenum, 4> kCounted{GL_VERTEX_SHADER_INVOCATIONS,
                                          GL_CLIPPING_OUTPUT_PRIMITIVES,
                                          GL_FRAGMENT_SHADER_INVOCATIONS,
                                          GL_COMPUTE_SHADER_INVOCATIONS};
-
-std::uint64_t answerOf(unsigned query) {
-    GLuint64 answer = 0;
-    glGetQueryObjectui64v(query, GL_QUERY_RESULT, &answer);
-    return answer;
-}
 
 StageWork workOf(const std::array<unsigned, 5>& queries) {
     return {answerOf(queries[1]), answerOf(queries[2]), answerOf(queries[3]), answerOf(queries[4])};
