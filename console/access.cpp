@@ -14,6 +14,7 @@
 #include "common/base/log.h"
 #include "common/base/output_file.h"
 #include "common/base/random_bytes.h"
+#include "common/base/typed_code.h"
 
 namespace aquarama::console {
 
@@ -22,9 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// Crockford's base 32, without I, L, O and U: five bits a letter.
-constexpr std::string_view kCrockford = "0123456789ABCDEFGHJKMNPQRSTVWXYZ";
-constexpr std::size_t kCodeLetters = 8;
 // Ten minutes, as the text beside the code says.
 constexpr double kCodeSeconds = 600;
 // 30 days, as long as the cookie that cookieOf() makes.
@@ -151,21 +149,6 @@ std::string hashOfSecret(std::string_view secret) {
     return toHex(digestOf(std::string(secret)));
 }
 
-// Crockford's alphabet has no O, I and L: typed, they mean 0 and 1.
-std::string plainCode(std::string_view typed) {
-    std::string code;
-    for (const char c : typed) {
-        const char capital = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-        if (capital == 'O')
-            code += '0';
-        else if (capital == 'I' || capital == 'L')
-            code += '1';
-        else if (std::isalnum(static_cast<unsigned char>(capital)) != 0)
-            code += capital;
-    }
-    return code;
-}
-
 // Others may neither list nor read the folder.
 Access::Access(fs::path folder, UnixSeconds built) : folder_{std::move(folder)}, built_{built} {
     std::error_code failure;
@@ -176,11 +159,8 @@ Access::Access(fs::path folder, UnixSeconds built) : folder_{std::move(folder)},
     sessions_ = holdersIn(folder_ / kSessionFile);
 }
 
-// 40 bits, shown in two halves.
 std::string Access::makeCode(ConsoleRole role, UnixSeconds now) {
-    const auto bytes = randomBytes<kCodeLetters>();
-    std::string code;
-    for (const unsigned char byte : bytes) code += kCrockford[byte & 31U];
+    const std::string code = freshCode();
     const json content{{"hash", hashOfSecret(code)},
                        {"role", nameOf(role)},
                        {"since", now},
@@ -189,7 +169,7 @@ std::string Access::makeCode(ConsoleRole role, UnixSeconds now) {
     std::error_code none;
     if (!write(folder_ / kCodeFile, content)) fs::remove(folder_ / kCodeFile, none);
     wrong_ = 0;
-    return code.substr(0, 4) + "-" + code.substr(4);
+    return shownCode(code);
 }
 
 // A clock that was set back would refuse it for years: no longer than the longest pause.

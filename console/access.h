@@ -97,8 +97,4 @@ class Access {
     std::map<std::string, Refusal> refusals_;  // by address
 };
 
-// The part of a pairing code that counts: capitals, without spaces and hyphens, and with the
-// letters that are mistaken for digits read as such.
-[[nodiscard]] std::string plainCode(std::string_view typed);
-
 }  // namespace aquarama::console

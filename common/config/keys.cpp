@@ -67,7 +67,7 @@ KeyFile parseKeyFile(const std::string& text, const std::string& source) {
             .revoked = in.revoked()};
 }
 
-void writeKeyFile(const fs::path& path, const KeyFile& key) {
+std::string textOf(const KeyFile& key) {
     v1::KeyFile out;
     out.set_version(kVersion);
     out.set_rig(key.rig);
@@ -81,7 +81,11 @@ void writeKeyFile(const fs::path& path, const KeyFile& key) {
     if (!key.revoked.empty()) out.set_revoked(key.revoked);
     std::string text;
     google::protobuf::TextFormat::PrintToString(out, &text);
-    text = "# Secret: whoever holds this file takes part as " + key.name + ".\n" + text;
+    return "# Secret: whoever holds this file takes part as " + key.name + ".\n" + text;
+}
+
+void writeKeyFile(const fs::path& path, const KeyFile& key) {
+    const std::string text = textOf(key);
     writePrivate(path, std::as_bytes(std::span(text)));
 }
 

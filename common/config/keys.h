@@ -45,6 +45,8 @@ struct KeyFile {
 [[nodiscard]] KeyFile parseKeyFile(const std::string& text, const std::string& source);
 // Throws Error where others than its owner may read a secret.
 void requirePrivate(const std::filesystem::path& path);
+// As a file has it; parseKeyFile() reads it.
+[[nodiscard]] std::string textOf(const KeyFile& key);
 // Readable by its owner only, whole or not at all. Throws Error where it cannot be written.
 void writeKeyFile(const std::filesystem::path& path, const KeyFile& key);
 

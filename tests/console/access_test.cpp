@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "common/base/typed_code.h"
+
 namespace aquarama::console {
 namespace {
 
@@ -62,7 +64,6 @@ TEST_F(AccessTest, aCodeLetsOneBrowserInOnceAndItsSessionOutlivesTheProgram) {
 }
 
 TEST_F(AccessTest, aCodeIsReadAsPeopleTypeIt) {
-    EXPECT_EQ(plainCode(" w54a-9o0i l"), "W54A90011");
     Access access(folder_);
     std::string code = access.makeCode(ConsoleRole::Watcher, 0);
     for (char& c : code) c = static_cast<char>(std::tolower(c));
