@@ -29,6 +29,7 @@ void addMaster(CommandLine& line);   // the master alone
 void addStandby(CommandLine& line);  // the master that takes over
 void addNode(CommandLine& line);     // hands over to aquarama-node
 void addKeyCommands(CommandLine& line);
+void addNodes(CommandLine& line);
 void addHall(CommandLine& line);
 void addRig(CommandLine& line);
 void addDoctor(CommandLine& line);

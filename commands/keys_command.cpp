@@ -18,6 +18,7 @@
 #include "common/base/output_file.h"
 #include "common/config/keys.h"
 #include "common/config/rig.h"
+#include "common/enrol/hand_over.h"
 #include "common/net/channels.h"
 #include "master/conductor/conductor.h"
 
@@ -47,10 +48,9 @@ std::string doubtOfClock() {
     return clockDoubt(systemSeconds(), static_cast<double>(builtAt()));
 }
 
-// Throws Error where the clock is wrong: a key made now would never have a known age.
-void requireClock() {
-    if (const std::string doubt = doubtOfClock(); !doubt.empty())
-        throw Error(doubt + ": no key is made now; " + kSetTheClock);
+// Of a key that is made now. Throws Error where the clock is wrong.
+std::string dayOfNewKey() {
+    return enrol::dayOfNewKey(systemSeconds(), static_cast<double>(builtAt()));
 }
 
 // Warns on standard error about a wrong clock, and continues: a revocation must not wait.
@@ -59,7 +59,7 @@ void warnOfClock(const std::string& what) {
         std::cerr << "aquarama keys: " << doubt << "; " << what << "; " << kSetTheClock << '\n';
 }
 
-// Today in UTC, in the form of key files; never before the day on which this program was built.
+// Today in UTC; never before the day on which this program was built.
 std::string today() {
     return dayOf(std::max(systemSeconds(), static_cast<double>(builtAt())));
 }
@@ -106,28 +106,11 @@ KeyFile masterOf(const KeyOptions& options) {
     return config::readKeyFile(path);
 }
 
-// `masterKey` is empty here: the caller sets it.
-KeyFile freshKey(const config::Rig& rig,
-                 const KeyOptions& options,
-                 std::string name,
-                 KeyRole role) {
-    net::KeyPair pair = net::makeKeyPair();
-    return {.rig = fs::path(options.rig).stem().string(),
-            .masterAddress = rig.controlAddress,
-            .masterKey = {},
-            .name = std::move(name),
-            .role = role,
-            .publicKey = std::move(pair.publicKey),
-            .secretKey = std::move(pair.secretKey),
-            .made = today(),
-            .revoked = {}};
-}
-
 // Makes missing keys; existing keys stay. So a rig with a new channel gets a key for it.
 void makeKeys(const KeyOptions& options) {
     const config::Rig rig = keyedRig(options);
     requireOwnNames(options, rig);
-    requireClock();
+    const std::string day = dayOfNewKey();
     const fs::path folder = options.keys();
     requireWritableFolder(folder);
     fs::permissions(folder, fs::perms::owner_all);
@@ -139,7 +122,7 @@ void makeKeys(const KeyOptions& options) {
             if (role == KeyRole::Master) masterKey = config::readKeyFile(path).publicKey;
             continue;
         }
-        KeyFile key = freshKey(rig, options, name, role);
+        KeyFile key = enrol::freshKey(rig, options.rig, name, role, day);
         if (role == KeyRole::Master) masterKey = key.publicKey;
         key.masterKey = masterKey;
         config::writeKeyFile(path, key);
@@ -203,8 +186,7 @@ void rotateMaster(const KeyOptions& options, const KeyFile& fresh) {
 void rotateKey(const KeyOptions& options) {
     const config::Rig rig = keyedRig(options);
     const KeyFile old = chosen(options);
-    requireClock();
-    KeyFile fresh = freshKey(rig, options, old.name, old.role);
+    KeyFile fresh = enrol::freshKey(rig, options.rig, old.name, old.role, dayOfNewKey());
     if (old.role == KeyRole::Master) return rotateMaster(options, fresh);
     fresh.masterKey = old.masterKey;
     config::writeKeyFile(config::keyFileIn(options.keys(), fresh.name), fresh);

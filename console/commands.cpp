@@ -42,6 +42,7 @@ std::optional<ConsoleRole> roleFor(const browser::Command& command) {
                                                     {What::kProjector, ConsoleRole::Crew},
                                                     {What::kUseCalibration, ConsoleRole::Crew},
                                                     {What::kPower, ConsoleRole::Crew},
+                                                    {What::kAssign, ConsoleRole::Crew},
                                                     {What::kOrder, ConsoleRole::Operator}};
     const auto role = kRoles.find(command.what_case());
     if (command.order().has_power()) return ConsoleRole::Crew;
@@ -234,6 +235,8 @@ Answer Commands::carryOutAllowed(const Holder& holder, Visitor* visitor, const C
             return showScan(holder, visitor, command);
         case What::kUseCalibration:
             return useKept(holder, visitor, command);
+        case What::kAssign:
+            return assignNode(holder, visitor, command);
         case What::kPicture:
             return readPicture(holder, visitor, command);
         case What::kOrder:
@@ -512,8 +515,28 @@ Answer Commands::useKept(const Holder& holder, Visitor* visitor, const Command& 
     const std::string& name = command.use_calibration();
     if (!isVersion(name)) return refused("there is no such calibration");
     if (!errands_.use(name, command.id()))
-        return refused("another one is being put in place; say it again");
+        return refused("something else is under way; say it again");
     waiting_[command.id()] = {visitor, holder.name, "calibration " + name};
+    return {Outcome::Waiting, ""};
+}
+
+Answer Commands::assignNode(const Holder& holder, Visitor* visitor, const Command& command) {
+    const browser::AssignCommand& wanted = command.assign();
+    const auto node = std::ranges::find(state_.waiting, wanted.letter(), &enrol::FoundNode::letter);
+    const auto channel =
+        std::ranges::find(state_.rig.channels, wanted.channel(), &config::Channel::name);
+    if (node == state_.waiting.end()) return refused("no node of this letter waits any more");
+    if (channel == state_.rig.channels.end()) return refused("there is no such channel");
+    if (!errands_.assign({.rigFile = state_.rigFile,
+                          .keyFolder = state_.keyFolder,
+                          .node = *node,
+                          .channel = channel->name,
+                          .code = wanted.code(),
+                          .built = state_.built},
+                         command.id()))
+        return refused("something else is under way; say it again");
+    waiting_[command.id()] = {
+        visitor, holder.name, "node " + node->letter + " gets the channel " + channel->name};
     return {Outcome::Waiting, ""};
 }
 

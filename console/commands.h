@@ -100,6 +100,9 @@ class Commands {
     [[nodiscard]] ask::Answer useKept(const Holder& holder,
                                       Visitor* visitor,
                                       const Command& command);
+    [[nodiscard]] ask::Answer assignNode(const Holder& holder,
+                                         Visitor* visitor,
+                                         const Command& command);
     [[nodiscard]] ask::Answer readPicture(const Holder& holder,
                                           Visitor* visitor,
                                           const Command& command);

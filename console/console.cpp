@@ -39,7 +39,12 @@ Console::Console(const ConsoleOptions& options, Access& access)
       visitors_{state_},
       errands_{state_},
       commands_{state_, visitors_, errands_},
-      tracker_{options.rig, options.master.rig} {}
+      tracker_{options.rig, options.master.rig},
+      search_{options.rig} {
+    state_.keyFolder = options.keyFolder;
+    state_.built = options.built;
+    state_.searchesNodes = search_.isOn();
+}
 
 Console::~Console() = default;
 
@@ -295,10 +300,11 @@ void Console::everySecond() {
     for (const auto& [who, what] : projectorBook_.update(state_.opening.projectors(), now))
         visitors_.note(who, what);
     if (visitors_.wantCalibrations()) errands_.wantCalibrations(ticks_);
-    if (const auto used = errands_.hear())
-        commands_.said(used->command,
-                       used->refusal.empty() ? ask::Answer{}
-                                             : ask::Answer{ask::Outcome::Refused, used->refusal});
+    if (const auto ended = errands_.hear())
+        commands_.said(ended->command,
+                       ended->refusal.empty() ? ask::Answer{}
+                                              : ask::Answer{ask::Outcome::Refused, ended->refusal});
+    state_.waiting = search_.nodes();
     visitors_.everySecond();
     if (options_.service != nullptr) options_.service->alive(0);
 }

@@ -31,6 +31,7 @@
 #include "console/state.h"
 #include "console/touch/tracker_keeper.h"
 #include "console/visitors.h"
+#include "console/waiting_nodes.h"
 
 namespace aquarama::console {
 
@@ -121,6 +122,7 @@ class Console final : public web::Service {
     Errands errands_;
     Commands commands_;
     TrackerKeeper tracker_;
+    NodeSearch search_;
     Doors doors_;
     web::WebServer* server_ = nullptr;
     ProjectorBook projectorBook_;

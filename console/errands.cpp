@@ -2,6 +2,7 @@
 #include "console/errands.h"
 
 #include <chrono>
+#include <utility>
 
 namespace aquarama::console {
 
@@ -29,21 +30,33 @@ void Errands::wantCalibrations(int ticks) {
 }
 
 bool Errands::use(const std::string& calibration, std::uint64_t command) {
-    if (using_.valid()) return false;
+    return begin(
+        [use = work_.useCalibration, rig = state_.rigFile, calibration] {
+            return use(rig, calibration);
+        },
+        command);
+}
+
+bool Errands::assign(const Assignment& assignment, std::uint64_t command) {
+    return begin([assign = work_.assignNode, assignment] { return assign(assignment); }, command);
+}
+
+bool Errands::begin(std::function<std::string()> errand, std::uint64_t command) {
+    if (errand_.valid()) return false;
     command_ = command;
-    using_ = std::async(std::launch::async, work_.useCalibration, state_.rigFile, calibration);
+    errand_ = std::async(std::launch::async, std::move(errand));
     return true;
 }
 
-std::optional<Errands::Used> Errands::hear() {
+std::optional<Errands::Ended> Errands::hear() {
     if (isReady(doctor_)) {
         state_.doctor = doctor_.get();
         state_.doctor.set_running(false);
     }
     if (isReady(reading_)) state_.calibrations = reading_.get();
-    if (!isReady(using_)) return std::nullopt;
+    if (!isReady(errand_)) return std::nullopt;
     readingDue_ = 0;
-    return Used{command_, using_.get()};
+    return Ended{command_, errand_.get()};
 }
 
 }  // namespace aquarama::console

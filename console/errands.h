@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What takes the console seconds and is done on threads of its own: the doctor's report, reading
-// calibrations, and putting one in place.
+// calibrations, putting one in place, and giving a node a channel.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,7 @@
 #include "console/console.pb.h"
 #include "console/files_of_show.h"
 #include "console/state.h"
+#include "console/waiting_nodes.h"
 
 namespace aquarama::console {
 
@@ -23,6 +24,7 @@ struct ErrandWork {
         console::calibrationsOf;
     std::function<std::string(const std::string& rigPath, const std::string& name)> useCalibration =
         console::useCalibration;
+    std::function<std::string(const Assignment& assignment)> assignNode = console::assignNode;
 };
 
 // Of the server's thread, which never waits for them.
@@ -36,17 +38,18 @@ class Errands {
     // Reads calibrations where that is due: every five seconds while somebody looks, as there may
     // be thirty large files. `ticks`: tenths of a second since the start.
     void wantCalibrations(int ticks);
-    // Puts a calibration in place, for the command of this number. False: another one is.
+    // Puts a calibration in place, or gives a node a channel, for the command of this number.
+    // False: another command waits for such an errand.
     [[nodiscard]] bool use(const std::string& calibration, std::uint64_t command);
+    [[nodiscard]] bool assign(const Assignment& assignment, std::uint64_t command);
 
-    // What has ended: the command that put a calibration in place, and why it was refused (empty:
-    // it was not).
-    struct Used {
+    // What has ended: the command, and why it was refused (empty: it was not).
+    struct Ended {
         std::uint64_t command = 0;
         std::string refusal;
     };
     // Looks at all of them, once a second.
-    [[nodiscard]] std::optional<Used> hear();
+    [[nodiscard]] std::optional<Ended> hear();
 
   private:
     State& state_;
@@ -54,7 +57,9 @@ class Errands {
     std::future<browser::DoctorReport> doctor_;
     std::future<browser::Calibrations> reading_;
     int readingDue_ = 0;  // tick
-    std::future<std::string> using_;
+    [[nodiscard]] bool begin(std::function<std::string()> errand, std::uint64_t command);
+
+    std::future<std::string> errand_;  // of a command
     std::uint64_t command_ = 0;
 };
 

@@ -7,9 +7,11 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "common/config/hours.h"
 #include "common/config/rig.h"
+#include "common/enrol/discovery.h"
 #include "console/access.h"
 #include "console/alerts.h"
 #include "console/console.pb.h"
@@ -52,6 +54,10 @@ struct State {
     std::string code = {};          // the last pairing code that somebody asked for in a page
     std::string doubtOfClock = {};  // empty: it may be right
     std::uint64_t refused = 0;      // requests, since the start
+    std::string keyFolder = {};     // of the master's keys; empty: the rig's own
+    UnixSeconds built = 0;          // when this program was
+    std::vector<enrol::FoundNode> waiting = {};  // nodes without a key, as they were last found
+    bool searchesNodes = false;
 };
 
 }  // namespace aquarama::console

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/machine/machine_power.h"
+#include "console/waiting_nodes.h"
 
 namespace aquarama::console {
 
@@ -131,7 +132,7 @@ void Visitors::everySecond() {
 // A page gets what it shows, and no other page does.
 void Visitors::sendTopics(Visitor& visitor) {
     using Send = void (Visitors::*)(Visitor&);
-    static constexpr std::array<std::pair<const char*, Send>, 8> kTopics{
+    static constexpr std::array<std::pair<const char*, Send>, 9> kTopics{
         {{"log", &Visitors::sendLog},
          {"drawings", &Visitors::sendDrawings},
          {"panorama", &Visitors::sendPanorama},
@@ -139,7 +140,8 @@ void Visitors::sendTopics(Visitor& visitor) {
          {"doctor", &Visitors::sendDoctor},
          {"history", &Visitors::sendWholeHistory},
          {"hours", &Visitors::sendHours},
-         {"people", &Visitors::sendPeople}}};
+         {"people", &Visitors::sendPeople},
+         {"waiting", &Visitors::sendWaiting}}};
     if (!visitor.wants("history")) visitor.hasHistory = false;
     for (const auto& [topic, send] : kTopics)
         if (visitor.wants(topic)) (this->*send)(visitor);
@@ -212,6 +214,12 @@ void Visitors::sendPeople(Visitor& visitor) {
     browser::ToBrowser message;
     *message.mutable_people() = peopleFor(visitor.holder);
     sendTo(visitor, "people", message);
+}
+
+void Visitors::sendWaiting(Visitor& visitor) {
+    browser::ToBrowser message;
+    *message.mutable_waiting_nodes() = listOf(state_.waiting, state_.searchesNodes);
+    sendTo(visitor, "waiting", message);
 }
 
 // Under its topic: an older one that waits still is replaced.

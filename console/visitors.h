@@ -101,6 +101,7 @@ class Visitors {
     void sendCalibrations(Visitor& visitor);
     void sendDrawings(Visitor& visitor);
     void sendPeople(Visitor& visitor);
+    void sendWaiting(Visitor& visitor);
     void sendPanorama(Visitor& visitor);
     void sendToAll(const std::string& topic, const browser::ToBrowser& message);
     [[nodiscard]] browser::ToBrowser snapshotFor(const Visitor& visitor) const;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "common/base/dates.h"
 #include "common/base/log.h"
 #include "common/base/typed_code.h"
 #include "common/enrol/proof.h"
@@ -61,6 +62,12 @@ void handOver(const FoundNode& node,
     if (!key.isProof(Side::Node, proof.content))
         throw Error("it does not know the code itself: somebody else answers in its place");
     ask(*channels, {Word::Kind::KeyFile, config::textOf(makeKey())}, Word::Kind::Taken, false);
+}
+
+std::string dayOfNewKey(double now, double built) {
+    if (const std::string doubt = clockDoubt(now, built); !doubt.empty())
+        throw Error(doubt + ": no key is made now; " + kSetTheClock);
+    return dayOf(std::max(now, built));
 }
 
 KeyFile freshKey(const config::Rig& rig,

@@ -20,6 +20,10 @@ void handOver(const FoundNode& node,
               std::string_view code,
               const std::function<config::KeyFile()>& makeKey);
 
+// Today in UTC, in the form of key files. `built`: when this program was (builtAt()). Throws Error
+// where the clock is wrong: a key that is made then would never have a known age.
+[[nodiscard]] std::string dayOfNewKey(double now, double built);
+
 // A key that its holder has in place of any other, made on this day; not written, and without the
 // master's public key.
 [[nodiscard]] config::KeyFile freshKey(const config::Rig& rig,

@@ -54,8 +54,7 @@ std::string CodeKey::proofOf(Side side) const {
 
 bool CodeKey::isProof(Side side, std::string_view proof) const {
     const std::string own = proofOf(side);
-    return proof.size() == own.size() &&
-           CRYPTO_memcmp(proof.data(), own.data(), own.size()) == 0;
+    return proof.size() == own.size() && CRYPTO_memcmp(proof.data(), own.data(), own.size()) == 0;
 }
 
 }  // namespace aquarama::enrol

@@ -3,6 +3,7 @@
 import {html, nothing} from '/vendor/lit-html.js';
 import {Plot, button, channelsOf, conditionOf, filter, holdButton, ms, skewBars, state, t, time,
   word} from '/widgets.js';
+import {waitingNodes} from '/waiting.js';
 
 // --- figures of the last ten minutes and of the last day
 
@@ -129,7 +130,7 @@ function service(link) {
 }
 
 export const nodesPage = {
-  look: () => ({topics: ['history']}),
+  look: () => ({topics: ['history', 'waiting']}),
   view: link => {
     drawPlots(link);
     return html`<section class="panel wide"><div class="scroll" tabindex="0" role="region"
@@ -137,6 +138,7 @@ export const nodesPage = {
       <thead><tr><th scope="col">${t('nodes.node')}</th>${Object.keys(columns).map(name => html`<th scope="col"
       class=${kind(name)}>${t(`nodes.${name}`)}</th>`)}</tr></thead>
       <tbody>${(link.status.nodes ?? []).map(nodeRow(link))}</tbody></table></div></section>
+      ${waitingNodes(link)}
       <div class="panels"><section
         class="panel"><h2>${t('skew.title')}</h2>${skewBars(link.status.skewCounts)}</section>${service(link)}</div>
       <div class="panels plots">${plots.map(([plot], i) => html`<section class="panel"><h2>${t(['nodes.tenMinutes',

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // aquarama-node: one process for each projector.
 #include <cstdlib>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@
 #include "common/skin/limit_table.h"
 #include "render_node/gl/context.h"
 #include "render_node/show/run_node.h"
+#include "render_node/show/wait_for_key.h"
 #include "render_node/surface/skin_colours.h"
 
 namespace {
@@ -46,9 +48,15 @@ struct PaintOptions {
     std::string out;
 };
 
+// The key file of the node.
+struct KeyOptions {
+    std::string path;        // empty: none
+    bool isAwaited = false;  // it may be handed over
+};
+
 void describe(CLI::App& app,
               aquarama::show::NodeOptions& options,
-              std::string& keyPath,
+              KeyOptions& key,
               PaintOptions& paint) {
     CLI::Option* name =
         app.add_option("NAME", options.channel, "the channel of the rig that this node shows");
@@ -57,8 +65,14 @@ void describe(CLI::App& app,
                    "the master's control address, tcp://HOST:PORT; once more: that of its standby")
         ->allow_extra_args(false)
         ->check(CLI::Validator(addressProblem, ""));
-    app.add_option("--key", keyPath, "file of aquarama keys bundle, which names channel and master")
+    app.add_option(
+           "--key", key.path, "file of aquarama keys bundle, which names channel and master")
         ->excludes(name);
+    app.add_flag("--wait-for-key",
+                 key.isAwaited,
+                 "where there is no such file yet: show a letter and a code on each monitor, until "
+                 "the console or aquarama nodes assign hands it over")
+        ->needs("--key");
     app.add_flag("--headless", options.headless, "draw without a display");
     app.add_option(
            "--device",
@@ -144,15 +158,18 @@ int main(int count, char** arguments) {
     using namespace aquarama;
     show::NodeOptions options;
     CLI::App app("Shows one channel of a wall, in step with all others.", "aquarama-node");
-    std::string keyPath;
+    KeyOptions key;
     PaintOptions paint;
-    describe(app, options, keyPath, paint);
+    describe(app, options, key, paint);
     return cli::runProgram(app, count, arguments, [&] {
         if (!paint.species.empty()) {
             spareFullDisk();
             return writeColours(paint);
         }
-        readKey(keyPath, options);
+        if (key.isAwaited && !std::filesystem::exists(key.path) &&
+            !show::waitForKey(key.path, options.headless))
+            return 0;
+        readKey(key.path, options);
         app.name(app.get_name() + " " + options.channel);
         cli::requireFolder("--snapshot", options.snapshotFolder);
         cli::requireFolder("--trace", options.traceFolder);

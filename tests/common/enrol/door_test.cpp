@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Doors of waiting nodes, over real sockets and multicast DNS of this machine.
-#include "common/enrol/node_door.h"
-
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
@@ -20,6 +18,7 @@
 
 #include "common/base/log.h"
 #include "common/enrol/hand_over.h"
+#include "common/enrol/node_door.h"
 #include "tests/support/await.h"
 #include "tests/support/edited_text.h"
 
@@ -78,9 +77,8 @@ FoundNode foundAs(const Discovery& discovery, const std::string& letter) {
 }
 
 bool isFound(const Discovery& discovery, const std::string& letter) {
-    return std::ranges::any_of(discovery.nodes(), [&](const FoundNode& node) {
-        return node.letter == letter;
-    });
+    return std::ranges::any_of(discovery.nodes(),
+                               [&](const FoundNode& node) { return node.letter == letter; });
 }
 
 // A rig of three channels, with keys, in a folder of this test.
@@ -95,8 +93,8 @@ class DoorTest : public testing::Test {
         for (const auto& [field, port] : ports)
             text = test::withField(text, field, test::quoted("tcp://192.168.7.1:" + port));
         std::ofstream(rig_) << text;
-        config::KeyFile master = freshKey(
-            config::readRig(rig_), rig_, "master", config::KeyRole::Master, "2026-11-29");
+        config::KeyFile master =
+            freshKey(config::readRig(rig_), rig_, "master", config::KeyRole::Master, "2026-11-29");
         master.masterKey = master.publicKey;
         masterKey_ = master.publicKey;
         config::writeKeyFile(folder_ / "master.key", master);
