@@ -105,6 +105,7 @@ function(aquarama_write_version program)
   aquarama_collect_links(${program} links)
   set(LIBRARIES "")
   foreach(library IN ITEMS
+      "Avahi PkgConfig::AVAHI common/enrol AVAHI_VERSION"
       "CLI11 CLI11::CLI11 . CLI11_VERSION" "Eigen Eigen3::Eigen common Eigen3_VERSION"
       "FFmpeg-libavcodec PkgConfig::FFMPEG calibration/compose FFMPEG_libavcodec_VERSION"
       "GLFW glfw render_node glfw3_VERSION"

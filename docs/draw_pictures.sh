@@ -68,6 +68,8 @@ declare -A way=(
     [televisions_reef.webp]=televisions
     [televisions_hall.webp]=televisions
     [console_calibration.png]=console
+    [console_waiting.png]=waiting
+    [node_card.png]=node_card
 )
 
 # Each leaves its pictures in $drawn.
@@ -297,6 +299,25 @@ PYTHON
 console() {
     cmake --build --preset show-tests --target aquarama-console
     AQUARAMA_BIN=$PWD/$bin AQUARAMA_SHOTS=$drawn /usr/bin/python3 tests/console/pages_test.py
+}
+# Nodes without a key on the console's page, as its test has them.
+waiting() {
+    cmake --build --preset show-tests --target aquarama-console
+    AQUARAMA_BIN=$PWD/$bin AQUARAMA_SHOTS=$drawn /usr/bin/python3 tests/console/waiting_test.py
+}
+# The screen of such a node, on a display without a screen.
+node_card() {
+    xvfb-run -a -s "-screen 0 800x450x24" bash -c "$bin/aquarama-node --key '$drawn/none.key' --wait-for-key &
+        sleep 5; xwd -root -silent -out '$drawn/node_card.xwd'; kill %1; wait"
+    /usr/bin/python3 - "$drawn/node_card.xwd" "$drawn/node_card.png" <<'PYTHON'
+import struct
+import sys
+from PIL import Image
+dump = open(sys.argv[1], "rb").read()
+header = struct.unpack(">25I", dump[:100])
+pixels = dump[header[0] + 12 * header[19]:]
+Image.frombuffer("RGB", (header[4], header[5]), pixels, "raw", "BGRX", header[12], 1).save(sys.argv[2])
+PYTHON
 }
 # The page of visitors, by chromium, as its test goes through it.
 guests() {

@@ -45,6 +45,7 @@ class MdnsStack {
 
     void start();  // of the thread, once whatever calls back is made
     void stop();   // of it: no callback runs afterwards
+    // For Avahi's functions; owned by this.
     [[nodiscard]] AvahiServer* server() const { return server_.get(); }
     // Does it between two callbacks. From any other thread.
     template <class Do>

@@ -25,6 +25,7 @@ class WaitingNode {
     // `publicKey`: under which it is spoken to.
     WaitingNode(std::string publicKey, net::Moment now, Keep keep);
 
+    // As typed_code.h has it, without the hyphen that a screen shows.
     [[nodiscard]] const std::string& code() const { return code_; }
     // Whether the code was replaced: it is valid for ten minutes, and for so many wrong guesses.
     bool renewCode(net::Moment now);

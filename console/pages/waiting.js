@@ -40,6 +40,7 @@ export function waitingNodes(link) {
   if (!searched) return nothing;
   if (!nodes.some(({letter}) => letter === chosen)) chosen = '';
   return html`<section class="panel wide" aria-labelledby="waiting"><h2 id="waiting">${t('waiting.title')}</h2>
-    ${nodes.length ? html`<div class="row">${nodes.map(card(link))}</div>` : html`<p class="note">${t('waiting.none')}</p>`}
+    ${nodes.length ? html`<div class="row">${nodes.map(card(link))}</div>`
+      : html`<p class="note">${t('waiting.none')}</p>`}
     ${chosen ? form(link) : nothing}</section>`;
 }

@@ -22,6 +22,7 @@ using test::Page;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 using Reply = v1::OrderReply;
 
 const std::string kVersion = "2026-11-25T210301";
@@ -45,6 +46,14 @@ Command scan(std::uint64_t id, const std::string& kind) {
 
 Command useCalibration(std::uint64_t id, const std::string& name) {
     return command(id, [&](Command& of) { of.set_use_calibration(name); });
+}
+
+Command assign(std::uint64_t id, const std::string& letter, const std::string& channel) {
+    return command(id, [&](Command& of) {
+        of.mutable_assign()->set_letter(letter);
+        of.mutable_assign()->set_channel(channel);
+        of.mutable_assign()->set_code("K7M4-QD9X");
+    });
 }
 
 Command picture(std::uint64_t id, const std::string& bytes) {
@@ -103,6 +112,11 @@ class DeskCommands : public testing::Test {
                          [ended = ended](const std::string&, const std::string&) {
                              ended.wait_for(test::kPatience);
                              return std::string();
+                         },
+                     .assignNode =
+                         [ended = ended](const Assignment&) {
+                             ended.wait_for(test::kPatience);
+                             return std::string();
                          }}};
     Commands commands{parts.state, parts.visitors, errands};
 };
@@ -130,6 +144,7 @@ TEST_F(DeskCommands, eachNeedsItsRole) {
           [](Command& of) { of.mutable_projector()->set_name("nobody"); },
           [](Command& of) { of.set_use_calibration(kVersion); },
           [](Command& of) { of.set_power("no word"); },
+          [](Command& of) { of.mutable_assign(); },
           [](Command& of) { of.mutable_order()->mutable_power()->set_channel("left"); }}}};
     std::uint64_t id = 0;
     for (const auto& [least, all] : kinds)
@@ -141,8 +156,19 @@ TEST_F(DeskCommands, eachNeedsItsRole) {
                 EXPECT_EQ(reason != "only " + least + " may do this", isAllowed)
                     << given.DebugString() << reason;
             }
-    EXPECT_EQ(parts.state.refused, 7U + 2 * 7U) << "in the foot of every page";
+    EXPECT_EQ(parts.state.refused, 7U + 2 * 8U) << "in the foot of every page";
     EXPECT_THAT(parts.events(), Contains("wim: refused: it needs crew"));
+}
+
+TEST_F(DeskCommands, aNodeThatWaitsIsGivenAChannelAndTheCodeIsToldToNobody) {
+    EXPECT_EQ(give(crew, assign(1, "B", "left")).reason(), "no node of this letter waits any more");
+    parts.state.waiting = {{"B", "tcp://192.168.7.3:41234", std::string(40, 'n')}};
+    EXPECT_EQ(give(crew, assign(2, "B", "nowhere")).reason(), "there is no such channel");
+    EXPECT_EQ(give(crew, assign(3, "B", "left")).outcome(), Reply::WAITING);
+    EXPECT_THAT(give(crew, assign(4, "B", "right")).reason(), HasSubstr("say it again"));
+    commands.said(3, {});
+    EXPECT_THAT(parts.events(), Contains("carl: node B gets the channel left"));
+    for (const std::string& event : parts.events()) EXPECT_THAT(event, Not(HasSubstr("K7M4")));
 }
 
 TEST_F(DeskCommands, whatIsNoCommandIsRefused) {

@@ -38,6 +38,10 @@ class HeldErrands : public testing::Test {
                     [this](const std::string&, const std::string& name) {
                         hold(uses);
                         return name == "good" ? std::string() : name + " fits no channel";
+                    },
+                .assignNode =
+                    [](const Assignment& assignment) {
+                        return "no node waits for " + assignment.channel;
                     }};
     }
     void hold(std::atomic<int>& count) {
@@ -90,7 +94,7 @@ TEST_F(HeldErrands, oneCalibrationAtATimeIsPutInPlace) {
     EXPECT_FALSE(errands.use("good", 8));
     EXPECT_FALSE(errands.hear());
     letGo();
-    std::optional<Errands::Used> used;
+    std::optional<Errands::Ended> used;
     ASSERT_TRUE(test::comesTrue([&] { return (used = errands.hear()).has_value(); }));
     EXPECT_EQ(used->command, 7U);
     EXPECT_EQ(used->refusal, "bad fits no channel");
@@ -100,6 +104,20 @@ TEST_F(HeldErrands, oneCalibrationAtATimeIsPutInPlace) {
     ASSERT_TRUE(test::comesTrue([&] { return (used = errands.hear()).has_value(); }));
     EXPECT_EQ(used->command, 9U);
     EXPECT_EQ(used->refusal, "");
+}
+
+TEST_F(HeldErrands, aNodeIsGivenAChannelWhereNoCalibrationIsPutInPlace) {
+    Assignment assignment;
+    assignment.channel = "left";
+    ASSERT_TRUE(errands.use("good", 7));
+    EXPECT_FALSE(errands.assign(assignment, 8));
+    letGo();
+    ASSERT_TRUE(test::comesTrue([&] { return errands.hear().has_value(); }));
+    EXPECT_TRUE(errands.assign(assignment, 9));
+    std::optional<Errands::Ended> told;
+    ASSERT_TRUE(test::comesTrue([&] { return (told = errands.hear()).has_value(); }));
+    EXPECT_EQ(told->command, 9U);
+    EXPECT_EQ(told->refusal, "no node waits for left");
 }
 
 // The list of a page names the one that is in place now.

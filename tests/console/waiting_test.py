@@ -1,5 +1,5 @@
-"""Nodes without a key, given their channels in Debian's chromium by letter and code. Every machine is a network namespace
-on one switch; the browser runs on the master's. Needs no root: user namespaces do.
+"""Nodes without a key, given their channels in Debian's chromium by letter and code. Every machine is a network
+namespace on one switch; the browser runs on the master's. Needs no root: user namespaces do.
 
 With AQUARAMA_SHOTS=FOLDER it writes a picture of the page there, as docs/draw_pictures.sh has it.
 """
@@ -78,8 +78,8 @@ class Waiting(unittest.TestCase):
     def wait(self, machine):
         """Starts a node without a key on this machine; its letter and its code."""
         with open(self.at / f"{machine}.log", "a") as log:
-            command = ["ip", "netns", "exec", machine, BIN / "aquarama-node", "--key", self.at / f"{machine}.machine.key",
-                       "--wait-for-key", "--headless"]
+            command = ["ip", "netns", "exec", machine, BIN / "aquarama-node", "--key",
+                       self.at / f"{machine}.machine.key", "--wait-for-key", "--headless"]
             self.processes.append(subprocess.Popen(command, stdout=log, stderr=log,
                                                    env=os.environ | {"LP_NUM_THREADS": "1"}))
         wait_until(lambda: "waits for a channel" in self.said(f"{machine}.log"), 30, f"a letter of {machine}")

@@ -132,6 +132,30 @@ class Windows(unittest.TestCase):
             colours = {pixel(x + i * width // 24, y + j * height // 18) for i in range(2, 23) for j in range(2, 17)}
             self.assertGreater(len(colours), 20, "the grid is drawn by the new look")
 
+    def test_a_node_without_a_key_fills_the_screen_with_its_letter(self):
+        waiting = temporary_folder()
+        self.addCleanup(waiting.cleanup)
+        key = Path(waiting.name) / "node.key"
+        node = subprocess.Popen([BIN / "aquarama-node", "--key", key, "--wait-for-key"],
+                                env=self.display.environment, stdout=subprocess.DEVNULL)
+        self.addCleanup(end, [node])
+
+        def lit():
+            """Shares of the left, middle and right third of the screen's upper half that are bright."""
+            width, height, pixel = self.display.screenshot()
+            rows, thirds = range(0, height // 2, 4), [range(i * width // 3, (i + 1) * width // 3, 4) for i in range(3)]
+            return [sum(min(pixel(x, y)) > 200 for y in rows for x in third) / len(rows) / len(third)
+                    for third in thirds]
+
+        # A letter of five by seven dots, half as high as the screen, stands in the middle.
+        wait_until(lambda: lit()[1] > 0.1, 30, "a letter")
+        self.assertEqual([lit()[0], lit()[2]], [0, 0])
+        (_, _, width, height, window), = self.display.windows().values()
+        self.assertEqual((width, height), (1600, 700))
+        self.display.press(window, "q")
+        self.assertEqual(node.wait(20), 0)
+        self.assertFalse(key.exists())
+
     def test_keys(self):
         self.run_show()
         wait_until(lambda: self.frames_shown() >= 3, 60, "the first frames")

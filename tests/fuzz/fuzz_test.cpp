@@ -12,6 +12,7 @@
 
 #include "common/base/picture.h"
 #include "common/body/side_view.h"
+#include "common/enrol/words.h"
 #include "common/motion/repertoire.h"
 #include "master/simulation/living_world.h"
 #include "master/world/world_state.h"
@@ -180,6 +181,16 @@ TEST(Fuzz, whatTrackersOfHandsSayIsReadWithinBounds) {
                                       tuio2Frame(6, touches, "tracker", true)})
         seeds.push_back(inputOf(std::as_bytes(std::span{packet})));
     feed(fuzzTuio, seeds, 20000);
+}
+
+TEST(Fuzz, whatIsSaidToAWaitingNodeIsReadWithinBounds) {
+    using Kind = enrol::Word::Kind;
+    std::vector<FuzzInput> seeds;
+    for (const enrol::Word& word : {enrol::Word{Kind::Proof, std::string(32, 'p')},
+                                    enrol::Word{Kind::KeyFile, "version: 1 name: \"left\""},
+                                    enrol::Word{Kind::Taken, ""}})
+        seeds.push_back(inputOf(enrol::packetOf(word)));
+    feed(fuzzEnrol, seeds, 20000);
 }
 
 TEST(Fuzz, whatProjectorsSayIsRefusedOrReadWithinBounds) {

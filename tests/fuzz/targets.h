@@ -25,6 +25,7 @@ int fuzzHours(const std::uint8_t* bytes, std::size_t size);
 int fuzzBrowser(const std::uint8_t* bytes, std::size_t size);
 int fuzzPjlink(const std::uint8_t* bytes, std::size_t size);
 int fuzzOsc(const std::uint8_t* bytes, std::size_t size);
+int fuzzEnrol(const std::uint8_t* bytes, std::size_t size);
 int fuzzTuio(const std::uint8_t* bytes, std::size_t size);
 int fuzzMpcdi(const std::uint8_t* bytes, std::size_t size);
 int fuzzPhoto(const std::uint8_t* bytes, std::size_t size);

@@ -270,6 +270,10 @@ TEST(House, curlStaysInTheLease) {
     EXPECT_EQ(strangers(std::regex("^curl/"), {"common/lease/"}), std::vector<std::string>{});
 }
 
+TEST(House, avahiStaysInEnrol) {
+    EXPECT_EQ(strangers(std::regex("^avahi-"), {"common/enrol/"}), std::vector<std::string>{});
+}
+
 TEST(House, libloStaysInOsc) {
     EXPECT_EQ(strangers(std::regex("^lo/"), {"common/osc/"}), std::vector<std::string>{});
 }
@@ -348,6 +352,7 @@ TEST(House, commonIsLayered) {
         {"common/parts/", {"common/base/"}},
         {"common/osc/", {"common/base/"}},
         {"common/tuio/", {"common/osc/"}},
+        {"common/enrol/", {"common/base/", "common/config/", "common/net/"}},
         {"common/ask/", {"common/base/", "common/config/", "common/net/", "common/wire/"}},
         {"common/cli/", {"common/base/"}},
         {"common/web/", {"common/base/"}},
