@@ -22,6 +22,7 @@ inline constexpr const char* kServiceType = "_aquarama-node._tcp";
 // Calls Avahi's function for an object where it is no longer used.
 template <auto function>
 struct Free {
+    // `object` is not null.
     template <class Object>
     void operator()(Object* object) const {
         function(object);
@@ -34,6 +35,7 @@ using ServiceBrowser = std::unique_ptr<AvahiSServiceBrowser, Free<avahi_s_servic
 // A stack of multicast DNS and its thread, which calls back. It publishes nothing by itself.
 class MdnsStack {
   public:
+    // Hears of each state of the server.
     using OnState = std::function<void(AvahiServer*, AvahiServerState)>;
     // `onState` is called on the thread, and within this function. Throws Error where the machine
     // has no multicast.

@@ -51,6 +51,8 @@ void MonitorWindows::open() {
             glfwCreateWindow(mode->width, mode->height, title_.c_str(), monitor, nullptr));
         if (!windows_.back()) throw Error("no window with OpenGL (" + lastGlfwError() + ")");
         glfwSetInputMode(windows_.back().get(), GLFW_CURSOR, GLFW_CURSOR_HIDDEN);
+        // A key that is let go before it was asked for still counts.
+        glfwSetInputMode(windows_.back().get(), GLFW_STICKY_KEYS, GLFW_TRUE);
         if (!placesWindows()) continue;
         glm::ivec2 corner{};
         glfwGetMonitorPos(monitor, &corner.x, &corner.y);
