@@ -165,7 +165,8 @@ class Units(unittest.TestCase):
         self.assertEqual(sorted(units),
                          ["aquarama-console.service", "aquarama-guests.service", "aquarama-master.service",
                           "aquarama-node@left.service", "aquarama-power.path", "aquarama-power.service",
-                          "aquarama-x@left.service", "aquarama.target"])
+                          "aquarama-time.path", "aquarama-time.service", "aquarama-x@left.service",
+                          "aquarama.target"])
         self.assertEqual(self.verified(*units), "")
 
     def test_a_key_in_the_wrong_section_is_found(self):
@@ -200,7 +201,7 @@ class Units(unittest.TestCase):
 
     def test_what_shows_the_wall_is_started_again_for_ever(self):
         for name, path in unit_files():
-            if name.endswith(".service") and "power" not in name:
+            if name.endswith(".service") and name not in ("aquarama-power.service", "aquarama-time.service"):
                 unit, service = path.read_text().split("[Service]")
                 self.assertIn("StartLimitIntervalSec=0", unit, name)
                 self.assertIn("Restart=always", service, name)
@@ -227,6 +228,31 @@ class Power(unittest.TestCase):
     def test_any_other_word_does_nothing(self):
         for text in ("", "halt\n", "poweroff; reboot\n", "isolate rescue.target\n"):
             self.assertEqual(self.tried(text), (None, 1, False), text)
+
+
+class Time(unittest.TestCase):
+    """Whom this machine's clock follows, by the keys of its nodes."""
+
+    KEY = 'version: 1\nrig: "hall"\nmaster_address: "tcp://{}:7400"\nmaster_key: "m"\nname: "left"\n'
+
+    def test_the_clock_follows_the_machine_that_the_keys_name(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = Path(folder)
+            for name, host in (("keys/left", "192.168.7.1"), ("keys/middle", "192.168.7.1"), ("state/node", "fe.local"),
+                               ("keys/hall/right", "10.0.0.9")):
+                (root / name).parent.mkdir(parents=True, exist_ok=True)
+                (root / f"{name}.key").write_text(self.KEY.format(host))
+            (root / "keys/broken.key").write_text('master_address: "tcp://10.0.0.8:7400; reboot"\n')
+            environment = {"PATH": "/usr/bin:/bin", "AQUARAMA_KEYS": f"{root}/keys {root}/state",
+                           "AQUARAMA_TIME_SOURCES": str(root / "chrony")}
+            for _ in range(2):
+                self.assertEqual(called(ROOT / "packaging/hall/time", env=environment).returncode, 0)
+                self.assertEqual((root / "chrony/aquarama.sources").read_text(),
+                                 "server 192.168.7.1 iburst\nserver fe.local iburst\n")
+            for key in root.rglob("*.key"):
+                key.unlink()
+            self.assertEqual(called(ROOT / "packaging/hall/time", env=environment).returncode, 0)
+            self.assertEqual((root / "chrony/aquarama.sources").read_text(), "")
 
 
 class Mirror(unittest.TestCase):
