@@ -9,6 +9,7 @@ import re
 import shutil
 import subprocess
 import sys
+import time
 import unittest
 from pathlib import Path
 
@@ -93,6 +94,9 @@ class Waiting(unittest.TestCase):
         find(self.driver, f'#waitingChannel option[value="{channel}"]').click()
         find(self.driver, "#waitingCode").send_keys(code, Keys.ENTER)
 
+    def assign(self, letter, channel, code):
+        return aquarama("nodes", "assign", self.rig, letter, channel, code, "--keys", self.keys)
+
     def is_in_step(self, channel):
         text = aquarama("status", self.rig, "--key", self.keys / "operator.key").stdout
         return re.search(rf"^{channel} +in step", text, re.M) is not None
@@ -122,10 +126,16 @@ class Waiting(unittest.TestCase):
         self.assertIn('name: "left"', (self.at / "left.machine.key").read_text())
         self.assertEqual((self.at / "left.machine.key").stat().st_mode & 0o777, 0o600)
         wait_until(lambda: not self.letters(), 20, "no letter on the page")
-        # The machine of the left channel is dead, or is thought to be: another one takes its place.
+        # The machine of the left channel is dead, or is thought to be: another one takes its place, without a browser.
         letter, code = self.wait("spare")
-        wait_until(lambda: self.letters() == [letter], 20, "the letter of the spare machine")
-        self.give(letter, "left", code.lower())
+        self.assertRegex(aquarama("nodes", "waiting").stdout, rf"^{letter} +tcp://{MACHINES['spare']}:\d+$")
+        for wrong, why in (((letter, "top", code), "has no channel"), ((letter, "left", "0000"), "not the code")):
+            refused = self.assign(*wrong)
+            self.assertEqual((refused.returncode, refused.stderr.count("\n")), (1, 1), refused.stderr)
+            self.assertIn(why, refused.stderr)
+        time.sleep(1)  # the node takes one guess a second
+        given = self.assign(letter.lower(), "left", code.lower())
+        self.assertEqual(given.returncode, 0, given.stderr)
         wait_until(lambda: "is given the channel left" in self.said("spare.log"), 20, "the key of the spare machine")
         wait_until(lambda: self.is_in_step("left"), 60, "the spare machine in step")
         end([self.processes[1]])  # the node that had the channel: nobody misses it
