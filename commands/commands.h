@@ -33,6 +33,7 @@ void addNodes(CommandLine& line);
 void addHall(CommandLine& line);
 void addRig(CommandLine& line);
 void addDoctor(CommandLine& line);
+void addTour(CommandLine& line);
 void addSchedule(CommandLine& line);
 void addStatus(CommandLine& line);
 void addSet(CommandLine& line);

@@ -18,6 +18,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "commands/commands.h"
+#include "commands/doctor.h"
 #include "commands/doctor_journal.h"
 #include "commands/findings.h"
 #include "common/ask/request_client.h"
@@ -351,11 +352,6 @@ void lookAtNode(Findings& findings, const config::Rig& rig, const v1::NodeStatus
     if (channel != rig.channels.end()) lookAtMonitors(findings, subject, *channel, node.report());
 }
 
-// The answer of a master: its status, or what it prepares; both empty where none answers.
-struct MasterAnswer {
-    std::optional<v1::StatusReply> status;
-    std::string preparing;
-};
 MasterAnswer answerOf(ask::RequestClient client) {
     MasterAnswer answer;
     try {
@@ -368,12 +364,7 @@ MasterAnswer answerOf(ask::RequestClient client) {
 
 // Checks the running show through its master. False: none runs.
 bool lookAtShow(Findings& findings, const DoctorOptions& options, const config::Rig& rig) {
-    MasterAnswer answer;
-    try {
-        answer = answerOf(connectToMaster(options.rig, options.keyFolder));
-    } catch (const Error&) {
-        return false;
-    }
+    const MasterAnswer answer = answerOfMaster(options.rig, options.keyFolder);
     if (!answer.preparing.empty()) {
         findings.judge(false,
                        Verdict::Warn,
@@ -460,13 +451,25 @@ void printJson(const Findings& findings) {
 
 // Exit status 1 where a check fails.
 int doctor(const DoctorOptions& options) {
-    const Findings findings = lookOver(options);
+    const Findings findings = findingsOfDoctor(options.rig, options.keyFolder);
     (options.json ? printJson : printTable)(findings);
     return std::ranges::any_of(
         findings.all(), [](const Finding& finding) { return finding.verdict == Verdict::Fail; });
 }
 
 }  // namespace
+
+MasterAnswer answerOfMaster(const std::string& rigPath, const std::string& keyFolder) {
+    try {
+        return answerOf(connectToMaster(rigPath, keyFolder));
+    } catch (const Error&) {
+        return {};
+    }
+}
+
+Findings findingsOfDoctor(const std::string& rigPath, const std::string& keyFolder) {
+    return lookOver({.rig = rigPath, .keyFolder = keyFolder});
+}
 
 void addDoctor(CommandLine& line) {
     const auto [command, options] = line.add<DoctorOptions>(

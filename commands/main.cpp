@@ -32,7 +32,7 @@ const std::array kGroups{
            addExplain,
            addSchedule}},
     Group{"A show on several machines, one process each",
-          {addMaster, addStandby, addNode, addKeyCommands, addNodes, addHall, addRig}},
+          {addMaster, addStandby, addNode, addKeyCommands, addNodes, addHall, addRig, addTour}},
     Group{"Files",
           {addNewRig,
            addCheck,
