@@ -34,6 +34,7 @@ void addHall(CommandLine& line);
 void addRig(CommandLine& line);
 void addDoctor(CommandLine& line);
 void addTour(CommandLine& line);
+void addPoweroff(CommandLine& line);
 void addSchedule(CommandLine& line);
 void addStatus(CommandLine& line);
 void addSet(CommandLine& line);

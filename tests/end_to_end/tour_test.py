@@ -1,4 +1,4 @@
-"""A new hall with a real show, step by step: what each step finds, how it is left and taken up again, and who ends it."""
+"""A new hall with a real show, step by step: what each step finds, how it is left, and how it is taken up again."""
 
 import json
 import os
@@ -50,7 +50,8 @@ class Tour(ShowCase):
 
     def nodes(self, *names):
         for name in names:
-            self.processes.append(start("node", name, "--master", control_address(self.rig), "--headless", log=self.log))
+            self.processes.append(start("node", name, "--master", control_address(self.rig), "--headless",
+                                        log=self.log))
 
     def report_of_all(self):
         return all(f"node {name}" in self.doctor() for name in ("left", "middle", "right"))

@@ -234,6 +234,7 @@ TEST(House, generatedMessagesStayWithWhoSpeaks) {
     const std::vector<std::string> askers{"common/ask/",
                                           "commands/ask_commands.cpp",
                                           "commands/doctor_command.cpp",
+                                          "commands/poweroff_command.cpp",
                                           "commands/tour_command.cpp",
                                           "calibration/scan/shown_patterns.cpp",
                                           "console/commands.cpp",
