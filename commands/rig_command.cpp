@@ -29,8 +29,9 @@ std::string sshHostOf(const std::string& address) {
     return std::string(isSix ? host.substr(1, host.size() - 2) : host);
 }
 
-// The machines of a rig by what they do: of groups, hosts with their variables. The master's
-// machine is named by its address, others as the rig names them.
+// The machines of a rig by what they do: of groups, hosts with their variables: the name of the
+// rig's file and that of the hall. The master's machine is named by its address, others as the rig
+// names them.
 json inventoryOf(const config::Rig& rig, const std::string& hall) {
     const std::string master = sshHostOf(rig.controlAddress);
     json machines;
@@ -39,6 +40,7 @@ json inventoryOf(const config::Rig& rig, const std::string& hall) {
         groups[group]["hosts"][machine] = json::object();
         json& variables = machines[machine];
         variables["aquarama_hall"] = hall;
+        variables["aquarama_name"] = rig.name;
         variables["aquarama_master"] = master;
         return variables;
     };

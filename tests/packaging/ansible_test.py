@@ -24,6 +24,18 @@ exit 1
 """
 
 
+# The doctors of three halls, by the rig that is named: one finds a fault, one does not, one cannot read its rig.
+FAKE_DOCTORS = """#!/bin/sh
+case $2 in
+    north*) echo '[{"verdict": "pass", "subject": "rig", "what": "good", "todo": ""},
+                   {"verdict": "warn", "subject": "disk", "what": "1 GB free", "todo": "make room"},
+                   {"verdict": "fail", "subject": "node left", "what": "absent", "todo": "start it"}]'; exit 1 ;;
+    south*) echo '[{"verdict": "pass", "subject": "rig", "what": "good", "todo": ""}]' ;;
+    *) echo "aquarama doctor: $2: is not there" >&2; exit 1 ;;
+esac
+"""
+
+
 def called(*command, **more):
     return subprocess.run([*map(str, command)], capture_output=True, text=True, check=False, timeout=300, **more)
 
@@ -74,7 +86,7 @@ class Fleet(unittest.TestCase):
         self.assertEqual(groups["consoles"], ["192.168.7.1"])
         self.assertEqual(groups["standbys"], ["spare"])
         self.assertEqual(sorted(groups["nodes"]), ["192.168.7.1", "hall-left-pc", "hall-right-pc"])
-        of_hall = {"aquarama_hall": "hall", "aquarama_master": "192.168.7.1"}
+        of_hall = {"aquarama_hall": "hall", "aquarama_name": "theatre", "aquarama_master": "192.168.7.1"}
         self.assertEqual(machines["192.168.7.1"], of_hall | {"aquarama_channels": ["middle"]})
         self.assertEqual(machines["hall-left-pc"], of_hall | {"aquarama_channels": ["left"]})
         self.assertEqual(machines["spare"], of_hall | {"ansible_host": "192.168.7.4"})
@@ -130,6 +142,43 @@ class Fleet(unittest.TestCase):
                 self.assertNotEqual(done.returncode, 0, done.stdout)
                 self.assertEqual(len(asked), fault_at, "whoever comes next is not asked about")
                 self.assertIn("silent for 12 s; no further machine is touched", " ".join(done.stdout.split()))
+
+
+    def test_what_each_halls_doctor_says_is_one_table(self):
+        for name, address in (("north", "192.168.7.1"), ("south", "192.168.8.1"), ("west", "192.168.9.1"),
+                              ("east", "192.168.10.1")):
+            (self.folder / name).mkdir()
+            rig = self.write_rig(name, address)
+            rig.write_text(rig.read_text().replace('name: "theatre"', f'name: "{name}"'))
+            inventory = json.loads(self.write_inventory(rig).read_text())
+            if name == "east":  # nobody answers there
+                inventory["all"]["hosts"]["192.168.10.1"] |= {"ansible_connection": "ssh", "ansible_host": "127.0.0.1",
+                                                              "ansible_port": 1}
+            (self.folder / name / "hall.json").write_text(json.dumps(inventory))
+        config = (PLAYBOOK.parent / "halls/ansible.cfg").read_text()
+        self.assertIn("inventory = north/hall.json,south/hall.json\n", config)
+        (self.folder / "ansible.cfg").write_text(config.replace("south/hall.json",
+                                                                "south/hall.json,west/hall.json,east/hall.json"))
+        programs = self.folder / "bin"
+        programs.mkdir()
+        (programs / "aquarama-hall").write_text(FAKE_DOCTORS)
+        (programs / "aquarama-hall").chmod(0o755)
+        done = called("ansible-playbook", PLAYBOOK.parent / "doctors.yml", "-c", "local", "-e",
+                      "ansible_become=false ansible_python_interpreter=/usr/bin/python3 "
+                      f"aquarama_answers={self.folder}/answers", cwd=self.folder,
+                      env=self.environment | {"PATH": f"{programs}:{os.environ['PATH']}"})
+        rows = re.findall(r'^ +"(\S+ .*?)",?$', done.stdout, re.MULTILINE)
+        self.assertEqual([" ".join(row.split()[:5]) for row in rows],
+                         ["hall master verdict fail warn", "east 192.168.10.1 silent 0 0",
+                          "west 192.168.9.1 silent 0 0", "north 192.168.7.1 fail 1 1", "south 192.168.8.1 pass 0 0"],
+                         done.stdout + done.stderr)
+        self.assertIn("Connection refused", rows[1])
+        self.assertIn("aquarama doctor: west.txtpb: is not there", rows[2])
+        self.assertTrue(rows[3].endswith("node left: absent"), rows[3])
+        figures = (self.folder / "answers/aquarama.prom").read_text()
+        self.assertIn('aquarama_doctor_findings{hall="north",master="192.168.7.1",verdict="fail"} 1\n', figures)
+        self.assertIn('aquarama_doctor_answered{hall="east",master="192.168.10.1"} 0\n', figures)
+        self.assertNotIn('findings{hall="west"', figures)
 
 
 if __name__ == "__main__":
