@@ -40,14 +40,16 @@ class Code:
         turns = {(row["shader"], row["loop"]): float(row["turns"]) for row in loops}
         self.costs = {}
         for row in programs:
-            key = files_of(row["program"], "." + row["shader"])
-            times = self._times(turns, key[0], row["loop"])
-            cycles, textures = self.costs.get(key, (0.0, 0.0))
-            self.costs[key] = (cycles + times * (int(row["vector"]) + SLOWER * int(row["slow"])),
-                               textures + times * int(row["texture"]))
-        # One program of several with the same code is compiled: another skin's stands in for a vertex shader.
-        for (file, _), cost in list(self.costs.items()):
-            self.costs[file, None] = max(cost, self.costs.get((file, None), cost))
+            program, (file, _) = row["program"], files_of(row["program"], "." + row["shader"])
+            times = self._times(turns, file, row["loop"])
+            cycles, textures = self.costs.get((program, file), (0.0, 0.0))
+            self.costs[program, file] = (cycles + times * (int(row["vector"]) + SLOWER * int(row["slow"])),
+                                         textures + times * int(row["texture"]))
+        # One program of several with the same code is compiled: another's stands in, with the same includes if there is
+        # one, else another skin's.
+        for (program, file), cost in list(self.costs.items()):
+            for key in (files_of(program, file), (file, None)):
+                self.costs[key] = max(cost, self.costs.get(key, cost))
 
     @staticmethod
     def _times(turns, file, loop):
@@ -64,7 +66,10 @@ class Code:
         key = files_of(program, ending)
         if key is None:
             return (0.0, 0.0)
-        return self.costs[key] if key in self.costs else self.costs[key[0], None]
+        for known in ((program, key[0]), key):
+            if known in self.costs:
+                return self.costs[known]
+        return self.costs[key[0], None]
 
 
 def work_of(row, code, whole_quads):

@@ -14,6 +14,8 @@ CODE = Code([{"program": "a.vert b.frag fine.glsl", "shader": "vert", "loop": ""
              {"program": "a.vert b.frag fine.glsl", "shader": "frag", "loop": "1", "vector": "10", "slow": "0",
               "texture": "2"},
              {"program": "a.vert b.frag fine.glsl", "shader": "frag", "loop": "1.1", "vector": "1", "slow": "0",
+              "texture": "0"},
+             {"program": "a.vert d.frag fine.glsl", "shader": "vert", "loop": "", "vector": "30", "slow": "0",
               "texture": "0"}],
             [{"shader": "b.frag", "loop": "1", "turns": "3"}, {"shader": "b.frag", "loop": "1.1", "turns": "5"}])
 DRAW = {"stage": "place", "program": "a.vert b.frag fine.glsl", "vertices": "1000", "primitives": "500",
@@ -67,6 +69,10 @@ class Bound(unittest.TestCase):
         self.assertEqual(CODE.of("a.vert c.frag other.glsl", ".vert"), (50, 0))
         self.assertEqual(CODE.of("copy", ".vert"), (0, 0))
         self.assertRaises(KeyError, CODE.of, "new.vert b.frag", ".vert")
+
+    def test_programs_that_share_a_shader_keep_costs_of_their_own(self):
+        self.assertEqual(CODE.of("a.vert b.frag fine.glsl", ".vert"), (50, 0))
+        self.assertEqual(CODE.of("a.vert d.frag fine.glsl", ".vert"), (30, 0))
 
     def test_a_draw_asks_for_lanes_texels_pixels_triangles_and_bytes(self):
         pixels = 4000 / 4
