@@ -1,7 +1,7 @@
 // One workgroup a fish: its control points from the recorded ones (eq. 13), kept in shared memory,
 // then each vertex of its surface by the stencils of its level. A fish that has just come near
 // enough for a level moves its vertices from where the coarser level has them.
-// In: drawn fish, recorded poses, stencils, parents, plan. Out: the surface buffer; for each vertex
+// In: drawn fish, recorded poses, stencils, parents, plan. Out: a page of surfaces; for each vertex
 // world metres (3 floats) and a packed normal. Each thread makes every 128th vertex.
 #include "shader_interface.h"
 #include "fish_pose.glsl"
@@ -23,7 +23,7 @@ layout(std430, binding = kSurfaceStorage) coherent buffer Surface { uvec4 surfac
 // two, and a normal.
 layout(std430, binding = kParentsStorage) readonly buffer Parents { uint parents[]; };
 
-layout(location = kTurnLocation) uniform uint turn;
+layout(location = kPageLocation) uniform uint page;
 
 shared vec3 controlPoints[kControlPoints];
 
@@ -75,8 +75,10 @@ void morph(Fish self, bool ontoControlMesh, uint first, uint vertex, uvec2 paren
 
 void main() {
     uint thread = gl_LocalInvocationID.x;
-    Fish self = fish[turns[firstFishOf(turn)] + gl_WorkGroupID.x];
-    for (uint i = thread; i < kControlPoints; i += kThreads) controlPoints[i] = controlPointOf(self, i);
+    Fish self = fish[pages[firstFishOf(page)] + gl_WorkGroupID.x];
+    Living living = livingOf(self);
+    for (uint i = thread; i < kControlPoints; i += kThreads)
+        controlPoints[i] = controlPointOf(self, living, i);
     barrier();
 
     Mesh mesh = kinds[self.species].meshes[detailOf(self) - kControlMesh + 1u];

@@ -14,7 +14,7 @@ layout(location = 5) in vec3 restNormal;
 
 void main() {
     Fish self = fish[slot];
-    vec3 point = controlPointOf(self, controlPoint);
+    vec3 point = controlPointOf(self, livingOf(self), controlPoint);
     place = self.positionMetres + rotate(self.rotation, point * self.lengthMetres);
     normal = rotate(self.rotation, restNormal);
     rest = vertexRest;

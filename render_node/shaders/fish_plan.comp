@@ -1,5 +1,5 @@
 // Makes the commands that draw the fish, from the number of fish in each list. One thread: a few
-// hundred steps, whatever the number of fish. In: totals of each list, cast. Out: firsts, turns,
+// hundred steps, whatever the number of fish. In: totals of each list, cast. Out: firsts, pages,
 // pieces, commands (fish_plan.glsl).
 #include "shader_interface.h"
 #include "fish_detail.glsl"
@@ -7,12 +7,12 @@
 
 layout(local_size_x = 1) in;
 layout(location = kSpeciesCountLocation) uniform uint speciesCount;
-layout(location = kTurnCountLocation) uniform uint turnCount;
-layout(location = kRoomVerticesLocation) uniform uint roomVertices;  // of the surface buffer
+layout(location = kPageCountLocation) uniform uint pageCount;
+layout(location = kRoomVerticesLocation) uniform uint roomVertices;  // of a page
 
 const uint kPointIndices = 12u;
 
-uint turn = 0u, usedVertices = 0u;
+uint page = 0u, usedVertices = 0u;
 
 Command bodyOf(Mesh mesh, uint fish, uint first) {
     return Command(mesh.bodyIndices, fish, mesh.firstBodyIndex, mesh.firstVertex, first);
@@ -22,12 +22,11 @@ Command finsOf(Mesh mesh, uint fish, uint first) {
 }
 
 void clear() {
-    for (uint t = 0u; t < turnCount; ++t) {
-        turns[bodyGroupsOf(t)] = turns[finGroupsOf(t)] = turns[firstFishOf(t)] = 0u;
-        turns[bodyGroupsOf(t) + 1u] = turns[bodyGroupsOf(t) + 2u] = 1u;
-        turns[finGroupsOf(t) + 1u] = turns[finGroupsOf(t) + 2u] = 1u;
+    for (uint p = 0u; p < pageCount; ++p) {
+        pages[groupsOf(p)] = pages[firstFishOf(p)] = 0u;
+        pages[groupsOf(p) + 1u] = pages[groupsOf(p) + 2u] = 1u;
         for (uint k = 0u; k < speciesCount * kSurfaces; ++k) {
-            uint at = t * kMostSpecies * kSurfaces + k;
+            uint at = p * kMostSpecies * kSurfaces + k;
             setPiece(at, Piece(0u, 0u, 0u));
             for (uint worn = 0u; worn < 2u; ++worn) {
                 drawNothing(worn * kCommands + at);
@@ -46,24 +45,24 @@ void setCommands(uint bodies, uint fins, Mesh mesh, uint own, uint fish, uint fi
     setCommand(kCommands + fins, finsOf(mesh, fish - own, first + own));
 }
 
-// Gives a list of surfaces room in this turn and the next ones; fish that do not fit in the last turn
+// Gives a list of surfaces room in this page and the next ones; fish that do not fit in the last page
 // are drawn as few triangles. own: how many of the fish, the first ones, wear their own skins.
 void place(uint species, uint surface, uint first, uint own, uint fish) {
     Mesh mesh = kinds[species].meshes[1u + surface];
     uint placed = 0u;
-    while (placed < fish && turn < turnCount) {
+    while (placed < fish && page < pageCount) {
         uint now = min(fish - placed, (roomVertices - usedVertices) / mesh.vertexCount);
         if (now > 0u) {
-            uint at = (turn * kMostSpecies + species) * kSurfaces + surface;
+            uint at = (page * kMostSpecies + species) * kSurfaces + surface;
             setPiece(at, Piece(first + placed, now, usedVertices));
             setCommands(at, kFirstFins + at, mesh, min(max(own, placed) - placed, now), now, first + placed);
-            if (turns[bodyGroupsOf(turn)] == 0u) turns[firstFishOf(turn)] = first + placed;
-            turns[bodyGroupsOf(turn)] += now;
+            if (pages[groupsOf(page)] == 0u) pages[firstFishOf(page)] = first + placed;
+            pages[groupsOf(page)] += now;
             usedVertices += now * mesh.vertexCount;
             placed += now;
         }
         if (placed < fish) {
-            ++turn;
+            ++page;
             usedVertices = 0u;
         }
     }
@@ -104,7 +103,4 @@ void main() {
     }
     for (uint species = 0u; species < speciesCount; ++species)
         for (uint worn = 0u; worn < 2u; ++worn) first = placeTail(species, worn, first);
-    // A surface that is still in the buffer when fins are drawn need not be evaluated again.
-    for (uint t = 0u; turnCount > 1u && turns[bodyGroupsOf(1u)] > 0u && t < turnCount; ++t)
-        turns[finGroupsOf(t)] = turns[bodyGroupsOf(t)];
 }

@@ -1,5 +1,5 @@
-// The plan of a view's lists: where each begins, which fish each turn of the surface buffer holds, and
-// the commands that draw them. FishPlan of render_node/surface/fish_tables.h.
+// The plan of a view's lists: where each begins, which fish each page of surfaces holds, and the
+// commands that draw them. A page is a storage block of its own. FishPlan of render_node/surface/fish_tables.h.
 #ifndef FISH_PLAN_GLSL
 #define FISH_PLAN_GLSL
 #include "shader_interface.h"
@@ -9,11 +9,11 @@
 struct Command {  // as glDrawElementsIndirect takes it
     uint count, instances, firstIndex, firstVertex, firstInstance;
 };
-// Fish of one list that a turn holds: places in the school, and in the surface buffer.
+// Fish of one list that a page holds: places in the school, and in the page.
 struct Piece {
     uint firstFish, fish, firstVertex;
 };
-const uint kPieces = kMostTurns * kMostSpecies * kSurfaces;  // [turn][species][surface]
+const uint kPieces = kMostPages * kMostSpecies * kSurfaces;  // [page][species][surface]
 const uint kCommands = 2u * kPieces + kMostSpecies * kTails;
 
 // All arrays are of plain numbers: of an array of structures a driver keeps a record for each
@@ -21,16 +21,14 @@ const uint kCommands = 2u * kPieces + kMostSpecies * kTails;
 layout(std430, binding = kPlanStorage) buffer Plan {
     uint totals[kMostSpecies * kDetailStride];  // fish, [species][list]
     uint firsts[kMostSpecies * kDetailStride];  // the place of each list's first
-    uint turns[kMostTurns * 8u];              // see bodyGroupsOf(), finGroupsOf(), firstFishOf()
+    uint pages[kMostPages * 4u];                // see groupsOf(), firstFishOf()
     uint pieces[kPieces * 3u];
     uint commands[2u * kCommands * 5u];  // see setCommand(); of fish in their own skins, then in drawings
 };
 
-// Of a turn, in `turns`: workgroups (x; then y and z) that evaluate it before bodies are drawn, and
-// again before fins are, where another turn came between; its first fish.
-uint bodyGroupsOf(uint turn) { return turn * 8u; }
-uint finGroupsOf(uint turn) { return turn * 8u + 3u; }
-uint firstFishOf(uint turn) { return turn * 8u + 6u; }
+// Of a page, in `pages`: workgroups (x; then y and z) that evaluate it; its first fish.
+uint groupsOf(uint page) { return page * 4u; }
+uint firstFishOf(uint page) { return page * 4u + 3u; }
 
 Piece pieceAt(uint at) {
     return Piece(pieces[at * 3u], pieces[at * 3u + 1u], pieces[at * 3u + 2u]);

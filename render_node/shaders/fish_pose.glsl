@@ -1,6 +1,6 @@
 // A fish's control points from the recorded ones (eq. 13), and its fins moved beside them; in its body
 // frame, body lengths. The reference is tests/render_node/surface/living_cage.h.
-// controlPointOf() is the entry. Phases are in cycles; the time is the frame's.
+// livingOf() and then controlPointOf() are the entries. Phases are in cycles; the time is the frame's.
 #ifndef FISH_POSE_GLSL
 #define FISH_POSE_GLSL
 #include "shader_interface.h"
@@ -85,7 +85,17 @@ FinDrive finDriveOf(Fish self) {
                     self.fromPhase, self.warpWeight);
 }
 
-vec3 controlPointOf(Fish self, uint i) {
+// What moves beside the body, alike for all control points of a fish.
+struct Living {
+    FinStyle style;
+    FinDrive drive;
+    FacePose face;
+};
+Living livingOf(Fish self) {
+    return Living(finStyleOf(self.species), finDriveOf(self), facePose(self, eyeAndTime.w));
+}
+
+vec3 controlPointOf(Fish self, Living living, uint i) {
     Posed pose = posedAt(self.species, self.action, self.phase, i);
     if (self.warpWeight < 1.0) {
         Posed from = posedAt(self.species, self.fromAction, self.fromPhase, i);
@@ -96,10 +106,10 @@ vec3 controlPointOf(Fish self, uint i) {
     FinPoint point = finPointOf(self.species, i);
     if (point.part == kBody) {
         if (point.p + point.q + point.sway == 0.0) return pose.place;  // most are behind the head
-        vec3 offset = faceOffset(finStyleOf(self.species), point, facePose(self, eyeAndTime.w));
+        vec3 offset = faceOffset(living.style, point, living.face);
         return pose.place + turnedBy(pose.heading, offset);
     }
-    vec3 offset = finOffset(finStyleOf(self.species), point, finDriveOf(self), pose.drift);
+    vec3 offset = finOffset(living.style, point, living.drive, pose.drift);
     return pose.place + turnedBy(pose.heading, offset);
 }
 #endif

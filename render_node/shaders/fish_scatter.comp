@@ -12,14 +12,14 @@ layout(local_size_x = kGroupSize) in;
 layout(std430, binding = kSchoolStorage) writeonly buffer School { Fish fish[]; };
 layout(std430, binding = kChoicesStorage) readonly buffer Choices { uint choices[]; };  // list | rank << 4
 layout(std430, binding = kCountsStorage) readonly buffer Counts { uint counts[]; };    // [group][list], sums
-layout(location = kTurnCountLocation) uniform uint turnCount;
+layout(location = kPageCountLocation) uniform uint pageCount;
 layout(location = kFishCountLocation) uniform uint fishCount;
 
 // The piece that contains its place, or none.
 bool findSurface(uint species, uint surface, uint slot, out uint firstVertex) {
     Mesh mesh = kinds[species].meshes[1u + surface];
-    for (uint t = 0u; t < turnCount; ++t) {
-        Piece piece = pieceAt((t * kMostSpecies + species) * kSurfaces + surface);
+    for (uint p = 0u; p < pageCount; ++p) {
+        Piece piece = pieceAt((p * kMostSpecies + species) * kSurfaces + surface);
         if (slot - piece.firstFish >= piece.fish) continue;
         firstVertex = piece.firstVertex + (slot - piece.firstFish) * mesh.vertexCount - mesh.firstVertex;
         return true;

@@ -95,11 +95,11 @@ AQUARAMA_CONSTANT int kFinestDetailLocation = 15;
 AQUARAMA_CONSTANT int kCullsLocation = 16;
 AQUARAMA_CONSTANT int kChoosesDetailLocation = 17;
 AQUARAMA_CONSTANT int kFishCountLocation = 18;
-AQUARAMA_CONSTANT int kTurnLocation = 18;
+AQUARAMA_CONSTANT int kPageLocation = 18;
 AQUARAMA_CONSTANT int kSpeciesCountLocation = 18;
 AQUARAMA_CONSTANT int kRoomVerticesLocation = 19;
 AQUARAMA_CONSTANT int kDrawnSpeciesLocation = 20;
-AQUARAMA_CONSTANT int kTurnCountLocation = 21;
+AQUARAMA_CONSTANT int kPageCountLocation = 21;
 
 // Locations of uniforms: what grows, and rock.
 AQUARAMA_CONSTANT int kReachLocation = 0;
@@ -173,8 +173,8 @@ AQUARAMA_CONSTANT uint kMostDrawn = 256U;
 
 // The plan of a view's fish.
 AQUARAMA_CONSTANT uint kMostSpecies = 64U;
-AQUARAMA_CONSTANT uint kMostTurns = 40U;  // of the surface buffer
-AQUARAMA_CONSTANT uint kSurfaces = 4U;  // levels of detail that have a surface
+AQUARAMA_CONSTANT uint kMostPages = 40U;  // of surfaces of fish
+AQUARAMA_CONSTANT uint kSurfaces = 4U;    // levels of detail that have a surface
 AQUARAMA_CONSTANT uint kMeshes =
     1U + kSurfaces;  // few triangles, then the surfaces from coarse to fine
 AQUARAMA_CONSTANT uint kTails = 2U * kMeshes + 1U;  // commands of a species that need no surface
@@ -242,7 +242,7 @@ AQUARAMA_CONSTANT float kTileMetres = 12.0F;  // caustics and waves; waves have 
 AQUARAMA_CONSTANT float kRippleTileMetres = 2.9F;  // the shorter waves
 AQUARAMA_CONSTANT float kSandTileMetres = 2.6F;
 AQUARAMA_CONSTANT float kRockTileMetres = 1.1F;
-AQUARAMA_CONSTANT float kMeanFloorMetres = 8.6F;    // depth of a reef's floor, as common/place has it
+AQUARAMA_CONSTANT float kMeanFloorMetres = 8.6F;  // depth of a reef's floor, as common/place has it
 AQUARAMA_CONSTANT float kFloorShadeMetres = 72.0F;  // the floor's occlusion, round the origin
 AQUARAMA_CONSTANT float kPlaceMetres = 80.0F;       // maps of the place's shadows, round the origin
 AQUARAMA_CONSTANT float kMapDepthMetres = 64.0F;    // depth 0 of those maps; 1 is the surface

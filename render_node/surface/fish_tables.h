@@ -27,13 +27,14 @@
 
 namespace aquarama::surface {
 
-// The surface buffer is filled at most so often for one view (a turn each). With its 64 MiB that is
-// room for 78 000 control meshes, or 19 000 meshes, or 4 900 heroes; heroes are placed first. Fish
-// for which no room is left are drawn as few triangles. That needs a school denser than one fish in
-// each cube of its length.
-inline constexpr std::size_t kTurns = 8;
+// Surfaces of a view take so many bytes at most: room for 60 000 control meshes, or 18 000 meshes,
+// or 4 800 heroes; heroes are placed first. Fish for which no room is left are drawn as few
+// triangles. That needs a school denser than one fish in each cube of its length.
+inline constexpr std::size_t kSurfaceBytes = std::size_t{512} << 20U;
 // Without levels of detail, where all fish are heroes: room for 24 000.
-inline constexpr std::size_t kMostTurns = shaders::kMostTurns;
+inline constexpr std::size_t kMostSurfaceBytes = 5 * kSurfaceBytes;
+// They are divided into pages, storage blocks of their own.
+inline constexpr std::size_t kMostPages = shaders::kMostPages;
 inline constexpr std::size_t kDetailStride = shaders::kDetailStride;
 inline constexpr std::size_t kSurfaces = shaders::kSurfaces;
 // Few triangles, then one mesh for each level that has a surface.
@@ -50,23 +51,22 @@ struct FishPlan {
     struct Command {
         std::uint32_t count, instances, firstIndex, firstVertex, firstInstance;
     };
-    // Fish of one species and level whose surfaces are made in one turn.
+    // Fish of one species and level whose surfaces are in one page.
     struct Piece {
         std::uint32_t firstFish, fish, firstVertex;
     };
-    // One filling of the surface buffer: workgroups as glDispatchComputeIndirect takes them, for
-    // the bodies, and again for the fins where another turn has overwritten the buffer.
-    struct Turn {
-        std::array<std::uint32_t, 3> bodyGroups, finGroups;
-        std::uint32_t firstFish, padding;
+    // Workgroups that make its surfaces, as glDispatchComputeIndirect takes them.
+    struct Page {
+        std::array<std::uint32_t, 3> groups;
+        std::uint32_t firstFish;
     };
     template <class T>
-    using EachPiece = std::array<std::array<std::array<T, kSurfaces>, kMostSpecies>, kMostTurns>;
+    using EachPiece = std::array<std::array<std::array<T, kSurfaces>, kMostSpecies>, kMostPages>;
 
     // By species and list: how many fish a view shows, and the index of the first of them among
     // the drawn fish.
     std::array<std::array<std::uint32_t, kDetailStride>, kMostSpecies> totals, firsts;
-    std::array<Turn, kMostTurns> turns;
+    std::array<Page, kMostPages> pages;
     EachPiece<Piece> pieces;
     // Draws of fish in their own skins, and of those that wear drawings.
     struct Draws {
@@ -77,7 +77,7 @@ struct FishPlan {
     Draws own, drawn;
 };
 static_assert(shaders::kMostSpecies == kMostSpecies);
-static_assert(sizeof(FishPlan::Command) == 20 && sizeof(FishPlan::Turn) == 32);
+static_assert(sizeof(FishPlan::Command) == 20 && sizeof(FishPlan::Page) == 16);
 
 // Tables of the species: recorded control points, and the meshes of each level of detail, all
 // species in the same buffers. Made once.

@@ -98,7 +98,7 @@ SkinShader::SkinShader(const body::FishSkin& skin, const gl::Replacements& repla
 
 namespace {
 
-// A vertex of the surface buffer: three floats and a packed normal (fish.comp).
+// A vertex of a surface: three floats and a packed normal (fish.comp).
 constexpr std::size_t kBytesPerVertex = 16;
 
 // 0, 1, 2 ..., at least one number. As an instanced attribute they give a shader its place in the
@@ -218,12 +218,12 @@ struct SchoolSurface::Parts {
     void setView(unsigned program, const FrustumPlanes& frustum, const SharedView& shared) const;
     // The four kernels that cull, count, plan and scatter.
     void sort() const;
-    // Fills the surface buffer for one turn.
-    void evaluate(std::size_t turn, std::size_t groupsOffset) const;
-    void drawSurfaces(std::size_t turn, bool isFins) const;
+    // Makes the surfaces of all pages.
+    void evaluate() const;
+    void drawSurfaces(bool isFins) const;
+    void drawPage(std::size_t page, bool isFins) const;
     // Of one species; commands: where those of its levels begin in the plan.
     void drawLevels(const SkinShader& skinShader, std::size_t commands, bool isFins) const;
-    void drawTurns(bool isFins) const;
     // Draws commands of each species that need no surface.
     void drawTails(std::size_t first,
                    std::size_t commands,
@@ -240,9 +240,8 @@ struct SchoolSurface::Parts {
     DrawnSkins drawings;
     FishTables tables;
     SchoolRecords records;
-    // How often the surface buffer is filled for a view, at most.
-    std::size_t turns = 1;
-    gl::Buffer choices, counts, plan, school, surface, slots;
+    std::vector<gl::Buffer> pages;  // of surfaces
+    gl::Buffer choices, counts, plan, school, slots;
     gl::VertexArray surfaceArray, fewArray, pointArray;
     gl::Buffer pointIndices{gl::makeBuffer(
         std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1}, "point indices")};
@@ -252,26 +251,38 @@ struct SchoolSurface::Parts {
     gl::ProgramHandle scatter{gl::makeProgram({"fish_scatter.comp"})};
 };
 
-// The surface buffer has room for the whole school at its finest level where that fits into
-// surfaceBytes; otherwise it is filled in several turns.
+namespace {
+
+std::size_t blockLimit() {
+    GLint64 bytes = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
+    return static_cast<std::size_t>(bytes);
+}
+
+}  // namespace
+
+// The pages have room for the whole school at its finest level, as far as there may be so many.
 void SchoolSurface::Parts::makeBuffers() {
     const std::size_t fish = records.fish();
-    const std::size_t most = options.surfaceBytes / kBytesPerVertex;
+    const std::size_t pageBytes = std::min(options.pageBytes, blockLimit() / 2);
+    const std::size_t most = pageBytes / kBytesPerVertex;
     assert(most > 0);
     const std::size_t wanted = std::max<std::size_t>(fish, 1) * tables.mostVertices;
     const std::size_t room = std::min(most, wanted);
-    const std::size_t heroesATurn = std::max<std::size_t>(room / tables.mostVertices, 1);
-    turns = std::clamp<std::size_t>(
-        (fish + heroesATurn - 1) / heroesATurn, 1, options.levelsOfDetail ? kTurns : kMostTurns);
+    const std::size_t heroesAPage = std::max<std::size_t>(room / tables.mostVertices, 1);
+    const std::size_t wantedPages = (fish + heroesAPage - 1) / heroesAPage;
+    const std::size_t bytes = options.levelsOfDetail ? kSurfaceBytes : kMostSurfaceBytes;
+    pages.resize(std::clamp<std::size_t>(wantedPages, 1, std::min(bytes / pageBytes, kMostPages)));
+    for (gl::Buffer& page : pages) page = gl::makeBuffer(room * kBytesPerVertex, "fish surfaces");
     choices = gl::makeBuffer(fish * sizeof(std::uint32_t), "fish choices");
     counts = gl::makeBuffer(tables.groups * kDetailStride * sizeof(std::uint32_t), "fish counts");
     plan = gl::makeBuffer(sizeof(FishPlan), "fish plan");
     school = gl::makeBuffer(fish * sizeof(DrawnFish), "fish drawn");
-    surface = gl::makeBuffer(room * kBytesPerVertex, "fish surfaces");
     slots = gl::makeBuffer(upTo(fish), "places in the school");
     glProgramUniform1ui(planner.name(), shaders::kRoomVerticesLocation, static_cast<GLuint>(room));
     for (const unsigned program : {planner.name(), scatter.name()})
-        glProgramUniform1ui(program, shaders::kTurnCountLocation, static_cast<GLuint>(turns));
+        glProgramUniform1ui(
+            program, shaders::kPageCountLocation, static_cast<GLuint>(pages.size()));
 }
 
 void SchoolSurface::Parts::makeVertexArrays() const {
@@ -366,33 +377,44 @@ void SchoolSurface::Parts::sort() const {
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
 
-void SchoolSurface::Parts::evaluate(std::size_t turn, std::size_t groupsOffset) const {
+void SchoolSurface::Parts::evaluate() const {
     const gl::Stage stage{"fish surfaces"};
     gl::bindStorage(shaders::kSchoolStorage, school);
     glBindTextureUnit(shaders::kRecordedUnit, tables.poses.name());
     gl::bindStorage(shaders::kFirstEntriesStorage, tables.firstEntries);
     gl::bindStorage(shaders::kEntriesStorage, tables.entries);
     gl::bindStorage(shaders::kCastStorage, tables.cast);
-    gl::bindStorage(shaders::kSurfaceStorage, surface);
     gl::bindStorage(shaders::kPlanStorage, plan);
     gl::bindStorage(shaders::kParentsStorage, tables.parents);
     glUseProgram(programs->surface.name());
-    glUniform1ui(shaders::kTurnLocation, static_cast<GLuint>(turn));
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, plan.name());
-    // Earlier draws have read the buffer that is overwritten now.
+    // An earlier view has drawn from the pages.
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    glDispatchComputeIndirect(static_cast<GLintptr>(offsetof(FishPlan, turns) +
-                                                    turn * sizeof(FishPlan::Turn) + groupsOffset));
+    for (std::size_t page = 0; page < pages.size(); ++page) {
+        gl::bindStorage(shaders::kSurfaceStorage, pages[page]);
+        glUniform1ui(shaders::kPageLocation, static_cast<GLuint>(page));
+        glDispatchComputeIndirect(
+            static_cast<GLintptr>(offsetof(FishPlan, pages) + page * sizeof(FishPlan::Page)));
+    }
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-// Draws the surfaces of a turn. Consecutive levels of a species that use the same program go into
-// one call.
-void SchoolSurface::Parts::drawSurfaces(std::size_t turn, bool isFins) const {
+void SchoolSurface::Parts::drawSurfaces(bool isFins) const {
+    glBindVertexArray(surfaceArray.name());
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, plan.name());
+    gl::bindStorage(shaders::kSchoolStorage, school);
+    for (std::size_t page = 0; page < pages.size(); ++page) {
+        gl::bindStorage(shaders::kSurfaceStorage, pages[page]);
+        drawPage(page, isFins);
+    }
+}
+
+// Consecutive levels of a species that use the same program go into one call.
+void SchoolSurface::Parts::drawPage(std::size_t page, bool isFins) const {
     using Draws = FishPlan::Draws;
     const std::size_t table = isFins ? offsetof(Draws, fins) : offsetof(Draws, bodies);
     for (std::size_t s = 0; s < species.size(); ++s) {
-        const std::size_t piece = (turn * shaders::kMostSpecies + s) * kSurfaces;
+        const std::size_t piece = (page * shaders::kMostSpecies + s) * kSurfaces;
         const std::size_t first = table + piece * sizeof(FishPlan::Command);
         species[s].eachWorn([&](const SkinShader& skinShader, std::size_t draws) {
             drawLevels(skinShader, draws + first, isFins);
@@ -418,22 +440,6 @@ void SchoolSurface::Parts::drawLevels(const SkinShader& skinShader,
                                     static_cast<GLsizei>(last - first),
                                     sizeof(FishPlan::Command));
         first = last;
-    }
-}
-
-// Evaluates each turn and draws it. With a single turn the surfaces of the bodies are still there
-// when the fins are drawn.
-void SchoolSurface::Parts::drawTurns(bool isFins) const {
-    glBindVertexArray(surfaceArray.name());
-    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, plan.name());
-    for (std::size_t turn = 0; turn < turns; ++turn) {
-        if (!isFins || turns > 1)
-            evaluate(turn,
-                     isFins ? offsetof(FishPlan::Turn, finGroups)
-                            : offsetof(FishPlan::Turn, bodyGroups));
-        gl::bindStorage(shaders::kSchoolStorage, school);
-        gl::bindStorage(shaders::kSurfaceStorage, surface);
-        drawSurfaces(turn, isFins);
     }
 }
 
@@ -506,8 +512,9 @@ void SchoolSurface::drawBodies() const {
     const gl::Stage stage{"fish bodies"};
     if (parts_->records.fish() == 0) return;
     parts_->drawings.bindTexture();
+    parts_->evaluate();
     glEnable(GL_CULL_FACE);
-    parts_->drawTurns(false);
+    parts_->drawSurfaces(false);
     glDisable(GL_CULL_FACE);
 }
 
@@ -522,7 +529,7 @@ void SchoolSurface::drawBlended() const {
         parts_->drawFew();
     }
     glEnable(GL_CULL_FACE);
-    parts_->drawTurns(true);
+    parts_->drawSurfaces(true);
     glDisable(GL_CULL_FACE);
     glDisable(GL_BLEND);
 }

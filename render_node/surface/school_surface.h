@@ -81,9 +81,9 @@ struct SurfaceOptions {
     float fineness = 1.0F;
     // The finest levels of drawn skins that are left out.
     std::size_t skinLevelsLeftOut = 0;
-    // Size of the surface buffer, bytes. Half of the smallest limit for a block that OpenGL drivers
-    // have in practice (128 MiB on software Mesa).
-    std::size_t surfaceBytes = std::size_t{64} << 20U;
+    // Size of a page of surfaces, bytes; no page is larger than half of the driver's limit for a
+    // block, which is 128 MiB on software Mesa. Each page costs a draw of each species.
+    std::size_t pageBytes = kSurfaceBytes;
 };
 
 // Layout of Fish in fish_data.glsl, std430: one fish that a view draws.
@@ -111,7 +111,7 @@ static_assert(sizeof(DrawnFish) == 96);
 struct SurfaceCounts {
     std::size_t visible = 0;
     std::array<std::size_t, kDetailLevels> atLevel{};
-    // Of those at levels that have a surface: for these the buffer had no room, and they are drawn
+    // Of those at levels that have a surface: for these no page had room, and they are drawn
     // as few triangles.
     std::size_t withoutRoom = 0;
 };

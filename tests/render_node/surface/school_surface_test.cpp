@@ -151,8 +151,8 @@ TEST_F(SchoolSurfaceTest, noFishInSightIsCulled) {
     EXPECT_LT(surface.counts().visible, school.size() - 200);
 }
 
-// The surfaces of a school that does not fit in the buffer at once are evaluated in turns.
-TEST_F(SchoolSurfaceTest, aSchoolThatDoesNotFitIsEvaluatedInTurns) {
+// The surfaces of a school that does not fit in a page go on in the next one.
+TEST_F(SchoolSurfaceTest, aSchoolThatDoesNotFitInAPageGoesOnInTheNext) {
     const std::size_t vertices = skin::makeLimitTable(body_, 2).vertices.size();
     constexpr std::size_t kRoomFor = 5;
     std::vector<motion::PresentedFish> school;
@@ -164,37 +164,35 @@ TEST_F(SchoolSurfaceTest, aSchoolThatDoesNotFitIsEvaluatedInTurns) {
     const test::RecordedSchool recorded{school};
     SchoolSurface surface = surfaceFor(
         recorded.traits,
-        {.culling = false, .levelsOfDetail = false, .surfaceBytes = kRoomFor * vertices * 16});
+        {.culling = false, .levelsOfDetail = false, .pageBytes = kRoomFor * vertices * 16});
     surface.update(recorded.moment());
     surface.look(clip_, {});
     EXPECT_EQ(surface.counts().visible, school.size());
     EXPECT_EQ(surface.counts().withoutRoom, 0U);
     evaluate(surface);
-    // The second turn holds two fish, from the beginning of the buffer again; the third of the
-    // first turn is still there.
     const auto expect = [&](std::size_t place, std::size_t fish) {
         EXPECT_LT(largestDistance(surfacePositions(vertices, place * vertices),
                                   expectedPositions(school[fish], DetailLevel::Hero)),
                   1e-4F * school[fish].lengthMetres);
     };
+    // The page that was bound last is the second one.
     expect(0, kRoomFor);
     expect(1, kRoomFor + 1);
-    expect(2, 2);
 }
 
-TEST_F(SchoolSurfaceTest, fishForWhichNoTurnHasRoomAreCounted) {
+TEST_F(SchoolSurfaceTest, fishForWhichNoPageHasRoomAreCounted) {
     const std::size_t vertices = skin::makeLimitTable(body_, 2).vertices.size();
     constexpr std::size_t kRoomFor = 5;
     constexpr std::size_t kTooMany = 3;
     std::vector<motion::PresentedFish> school;
-    for (std::uint32_t i = 0; i < kMostTurns * kRoomFor + kTooMany; ++i) {
+    for (std::uint32_t i = 0; i < kMostPages * kRoomFor + kTooMany; ++i) {
         school.push_back(test::fishAt({0, 0, -3}, {1, 0, 0, 0}));
         school.back().id = i;
     }
     const test::RecordedSchool recorded{school};
     SchoolSurface surface = surfaceFor(
         recorded.traits,
-        {.culling = false, .levelsOfDetail = false, .surfaceBytes = kRoomFor * vertices * 16});
+        {.culling = false, .levelsOfDetail = false, .pageBytes = kRoomFor * vertices * 16});
     surface.update(recorded.moment());
     surface.look(clip_, {});
     EXPECT_EQ(surface.counts().visible, school.size());

@@ -83,7 +83,7 @@ class SurfaceTest : public testing::Test {
     static std::vector<surface::DrawnFish> drawn(const surface::SchoolSurface& surface) {
         return storage<surface::DrawnFish>(0, surface.counts().visible);
     }
-    // Positions of the first vertices in the surface buffer, once bodies have been drawn.
+    // Positions of the first vertices in the last page of surfaces, once fish have been drawn.
     static std::vector<glm::vec3> surfacePositions(std::size_t count, std::size_t first = 0) {
         const auto vertices = storage<glm::vec4>(5, count, first);
         return {vertices.begin(), vertices.end()};
