@@ -50,11 +50,11 @@ struct LightQuality {
 struct Quality {
     // Pixels of the scene's picture relative to the projector's, along either axis.
     float pictureShare = 1.0F;
-    // Samples of a pixel (multisampling).
+    // Samples of a pixel (multisampling), 1 or shaders::kSamples.
     int samples = 1;
-    // Blurs the distance by forward scattering in water: 32 texture reads for each pixel.
+    // Blurs the distance by forward scattering in water: 17 texture reads for each pixel.
     bool softening = false;
-    // 18 texture reads for each pixel, and mip levels of the picture.
+    // Mip levels of the picture, and a glow of a quarter of its width.
     bool bloom = false;
     // Fish that fill much of the picture are refined a third time.
     bool closeUps = false;

@@ -13,17 +13,10 @@ namespace aquarama::scene {
 
 namespace {
 
-// Mip levels of the picture that bloom reads. The last is the one that the widest ring of
-// bloom.glsl needs where a radian has 16 000 pixels.
+// Mip levels of the picture that glow.frag reads. The last is the one that its widest ring
+// needs where a radian has 16 000 pixels.
 constexpr int kBloomLevels = 8;
 static_assert(1 << (kBloomLevels - 1) == ScenePicture::kPartPixels);
-
-// The number of samples, limited to what the driver has; 1 to GL_MAX_SAMPLES.
-int supported(int samples) {
-    int most = 1;
-    glGetIntegerv(GL_MAX_SAMPLES, &most);
-    return std::clamp(samples, 1, std::max(most, 1));
-}
 
 // A texture for a layer: with several samples it has one level and cannot be filtered.
 gl::Texture makeLayer(GLenum format, glm::ivec2 size, int samples, int levels = 1) {
@@ -40,7 +33,18 @@ int bloomLevels(glm::ivec2 size) {
     return levels;
 }
 
-// Bloom is an include of the last pass, so that it costs no pass of its own.
+// Of the picture of the glow, for a picture of this size.
+glm::ivec2 glowSize(glm::ivec2 size) {
+    constexpr int kSmaller = 4;
+    return (size + kSmaller - 1) / kSmaller;
+}
+
+gl::ProgramHandle makeResolve(int samples) {
+    if (samples > 1) return gl::makeProgram({"quad.vert", "resolve.frag"});
+    return gl::makeProgram({"quad.vert", "resolve.frag"},
+                           {{"many_samples.glsl", "one_sample.glsl"}});
+}
+
 gl::ProgramHandle makeTone(bool bloom) {
     if (!bloom) return gl::makeProgram({"quad.vert", "tone.frag"});
     return gl::makeProgram({"quad.vert", "tone.frag"}, {{"scene_light.glsl", "bloom.glsl"}});
@@ -48,41 +52,38 @@ gl::ProgramHandle makeTone(bool bloom) {
 
 }  // namespace
 
+void ScenePicture::Pass::resize(glm::ivec2 sizePixels, int levels) {
+    light = makeTexture(GL_RGBA16F, sizePixels, levels, Edge::Clamp);
+    target = makeTarget(light);
+}
+
 ScenePicture::ScenePicture(const Quality& quality)
-    : quality_{quality},
-      tone_{makeTone(quality.bloom)},
-      softenedColour_{static_cast<GLenum>(GL_TEXTURE_2D)},
-      display_{static_cast<GLenum>(GL_TEXTURE_2D)} {
-    quality_.samples = supported(quality.samples);
+    : quality_{quality}, tone_{makeTone(quality.bloom)} {
+    assert(quality.samples == 1 || quality.samples == shaders::kSamples);
+    if (quality.samples > 1 || quality.softening) resolve_.emplace(makeResolve(quality.samples));
     if (quality.softening) soften_.emplace(gl::makeProgram({"quad.vert", "soften.frag"}));
+    if (quality.bloom) glow_.emplace(gl::makeProgram({"quad.vert", "glow.frag"}));
 }
 
 void ScenePicture::allocate(glm::ivec2 sizePixels) {
     size_ = sizePixels;
+    // Only the texture that the glow is made of has mip levels.
     const int levels = quality_.bloom ? bloomLevels(size_) : 1;
-    const auto fill = [&](Layer& layer, int samples, int of) {
-        layer.colour = makeLayer(GL_RGBA16F, size_, samples, of);
-        layer.depth = makeLayer(GL_DEPTH_COMPONENT32F, size_, samples);
-        layer.target = makeTarget(layer.colour);
-        glNamedFramebufferTexture(layer.target.name(), GL_DEPTH_ATTACHMENT, layer.depth.name(), 0);
-    };
-    // Only the texture that the last pass reads has mip levels.
-    const int unsoftened = soften_ ? 1 : levels;
-    fill(drawn_, quality_.samples, unsoftened);
-    if (quality_.samples > 1) fill(resolved_, 1, unsoftened);
-    if (soften_) {
-        softenedColour_ = makeTexture(GL_RGBA16F, size_, levels, Edge::Clamp);
-        softened_ = makeTarget(softenedColour_);
-    }
-    display_ = makeTexture(GL_RGBA16F, size_, 1, Edge::Clamp);
-    toned_ = makeTarget(display_);
+    colour_ = makeLayer(GL_RGBA16F, size_, quality_.samples, resolve_ ? 1 : levels);
+    depth_ = makeLayer(GL_DEPTH_COMPONENT32F, size_, quality_.samples);
+    drawn_ = makeTarget(colour_);
+    glNamedFramebufferTexture(drawn_.name(), GL_DEPTH_ATTACHMENT, depth_.name(), 0);
+    if (resolve_) resolve_->resize(size_, soften_ ? 1 : levels);
+    if (soften_) soften_->resize(size_, levels);
+    if (glow_) glow_->resize(glowSize(size_), 1);
+    tone_.resize(size_, 1);
 }
 
 void ScenePicture::begin(glm::ivec2 sizePixels) {
     assert(sizePixels.x > 0);
     assert(sizePixels.y > 0);
     if (sizePixels != size_) allocate(sizePixels);
-    glBindFramebuffer(GL_FRAMEBUFFER, drawn_.target.name());
+    glBindFramebuffer(GL_FRAMEBUFFER, drawn_.name());
     glViewport(0, 0, size_.x, size_.y);
     // Every pixel will be covered: only the depth needs a value. Far is 0.
     glDepthMask(GL_TRUE);
@@ -92,39 +93,36 @@ void ScenePicture::begin(glm::ivec2 sizePixels) {
     glDepthFunc(GL_GEQUAL);
 }
 
-// The resolved colour is the mean over the samples. Depth is copied only where the softening reads
-// it: the driver takes one of the samples.
-void ScenePicture::resolve() const {
-    const gl::Stage stage{"resolve"};
-    const GLbitfield layers =
-        GL_COLOR_BUFFER_BIT | (soften_ ? static_cast<GLbitfield>(GL_DEPTH_BUFFER_BIT) : 0U);
-    glBlitNamedFramebuffer(drawn_.target.name(),
-                           resolved_.target.name(),
-                           0,
-                           0,
-                           size_.x,
-                           size_.y,
-                           0,
-                           0,
-                           size_.x,
-                           size_.y,
-                           layers,
-                           GL_NEAREST);
-}
-
-void ScenePicture::pass(unsigned framebuffer, unsigned program) const {
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+void ScenePicture::draw(const Pass& pass, unsigned program, unsigned light) const {
+    glBindTextureUnit(shaders::kSceneUnit, light);
+    glBindFramebuffer(GL_FRAMEBUFFER, pass.target.name());
     glUseProgram(program);
     glBindVertexArray(empty_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+void ScenePicture::resolve() const {
+    const gl::Stage stage{"resolve"};
+    glBindTextureUnit(shaders::kDepthUnit, depth_.name());
+    draw(*resolve_, resolve_->program.name(), colour_.name());
+}
+
 unsigned ScenePicture::softening(bool isFiner) {
-    if (!isFiner) return soften_->name();
+    if (!isFiner) return soften_->program.name();
     if (!softenFiner_)
         softenFiner_.emplace(gl::makeProgram({"quad.vert", "soften.frag"},
                                              {{"soften_taps.glsl", "soften_more_taps.glsl"}}));
     return softenFiner_->name();
+}
+
+void ScenePicture::spreadLight(unsigned light) const {
+    const gl::Stage stage{"bloom"};
+    glGenerateTextureMipmap(light);
+    const glm::ivec2 smaller = glowSize(size_);
+    glViewport(0, 0, smaller.x, smaller.y);
+    draw(*glow_, glow_->program.name(), light);
+    glViewport(0, 0, size_.x, size_.y);
+    glBindTextureUnit(shaders::kGlowUnit, glow_->light.name());
 }
 
 unsigned ScenePicture::finish(bool isFiner) {
@@ -132,24 +130,20 @@ unsigned ScenePicture::finish(bool isFiner) {
     assert(size_.x > 0);
     assert(size_.y > 0);
     glDisable(GL_DEPTH_TEST);
-    if (quality_.samples > 1) resolve();
-    const Layer& light = quality_.samples > 1 ? resolved_ : drawn_;
-    unsigned seen = light.colour.name();
+    unsigned seen = colour_.name();
+    if (resolve_) {
+        resolve();
+        seen = resolve_->light.name();
+    }
     if (soften_) {
         const gl::Stage stage{"soften"};
-        glBindTextureUnit(shaders::kSceneUnit, seen);
-        glBindTextureUnit(shaders::kDepthUnit, light.depth.name());
-        pass(softened_.name(), softening(isFiner));
-        seen = softenedColour_.name();
+        draw(*soften_, softening(isFiner), seen);
+        seen = soften_->light.name();
     }
-    if (quality_.bloom) {
-        const gl::Stage stage{"bloom"};
-        glGenerateTextureMipmap(seen);
-    }
+    if (glow_) spreadLight(seen);
     const gl::Stage stage{"tone"};
-    glBindTextureUnit(shaders::kSceneUnit, seen);
-    pass(toned_.name(), tone_.name());
-    return display_.name();
+    draw(tone_, tone_.program.name(), seen);
+    return tone_.light.name();
 }
 
 }  // namespace aquarama::scene

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include <glm/vec2.hpp>
 
@@ -30,31 +31,37 @@ class ScenePicture {
     unsigned finish(bool isFiner);
 
   private:
-    // Light and depth of one layer. A multisampled layer is only drawn into; shaders read a layer
-    // that has one sample.
-    struct Layer {
-        gl::Texture colour{static_cast<GLenum>(GL_TEXTURE_2D)};
-        gl::Texture depth{static_cast<GLenum>(GL_TEXTURE_2D)};
+    // A pass over the picture: what it makes.
+    struct Pass {
+        explicit Pass(gl::ProgramHandle of) : program{std::move(of)} {}
+        void resize(glm::ivec2 sizePixels, int levels);
+
+        gl::ProgramHandle program;
+        gl::Texture light{static_cast<GLenum>(GL_TEXTURE_2D)};  // RGBA16F
         gl::Framebuffer target;
     };
 
-    // Makes the buffers of the layers that this quality needs.
+    // Makes the buffers that this quality needs.
     void allocate(glm::ivec2 sizePixels);
+    // Makes light of one sample a pixel, with its depth in the fourth channel.
     void resolve() const;
     // The program that softens; that with more taps is made when it is first needed.
     [[nodiscard]] unsigned softening(bool isFiner);
-    // Draws one triangle that covers the picture.
-    void pass(unsigned framebuffer, unsigned program) const;
+    // Makes the glow about what is bright in a texture of light, and binds it for the tone.
+    void spreadLight(unsigned light) const;
+    // Draws one triangle that covers the picture of the pass, which a program reads at kSceneUnit.
+    void draw(const Pass& pass, unsigned program, unsigned light) const;
 
     Quality quality_;
     glm::ivec2 size_{0};
-    gl::ProgramHandle tone_;
-    std::optional<gl::ProgramHandle> soften_, softenFiner_;
     gl::VertexArray empty_;
-    // resolved_ is empty where drawn_ has one sample.
-    Layer drawn_, resolved_;
-    gl::Texture softenedColour_, display_;
-    gl::Framebuffer softened_, toned_;
+    // What is drawn; a shader can filter it only where it has one sample a pixel.
+    gl::Texture colour_{static_cast<GLenum>(GL_TEXTURE_2D)};
+    gl::Texture depth_{static_cast<GLenum>(GL_TEXTURE_2D)};
+    gl::Framebuffer drawn_;
+    std::optional<Pass> resolve_, soften_, glow_;
+    std::optional<gl::ProgramHandle> softenFiner_;
+    Pass tone_;
 };
 
 }  // namespace aquarama::scene

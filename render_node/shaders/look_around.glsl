@@ -25,8 +25,8 @@ vec3 beside(Neighbourhood at, vec2 radians) {
 }
 vec2 uvOf(vec3 clip) { return 0.5 + 0.5 * clip.xy / clip.z; }
 
-// The distance of the thing that is seen there; depth is near / distance along the axis.
-float rangeOf(vec3 clip, float depth) {
-    return min(clipFromWorld[3].z / max(depth * clip.z, 1.0e-6), 80.0);
+// 1 over the range of the thing that is seen there, which is 80 m at most; depth is near / distance along the axis.
+float nearnessOf(vec3 clip, float depth) {
+    return max(depth * clip.z / clipFromWorld[3].z, 1.0 / 80.0);
 }
 #endif

@@ -78,6 +78,7 @@ AQUARAMA_CONSTANT int kDrawnSkinsUnit = 23;
 // Texture units of the passes over a picture.
 AQUARAMA_CONSTANT int kSceneUnit = 0;
 AQUARAMA_CONSTANT int kDepthUnit = 1;
+AQUARAMA_CONSTANT int kGlowUnit = 1;
 AQUARAMA_CONSTANT int kMomentDepthsUnit = 0;
 AQUARAMA_CONSTANT int kPlacesUnit = 1;
 AQUARAMA_CONSTANT int kRightSceneUnit = 2;
@@ -167,6 +168,9 @@ AQUARAMA_CONSTANT int kInstanceBits = 24;
 
 // The kernels that look at one fish or one thing a thread.
 AQUARAMA_CONSTANT uint kGroupSize = 64U;
+
+// Samples of a pixel where it has several. OpenGL guarantees so many.
+AQUARAMA_CONSTANT int kSamples = 4;
 
 // Drawings of visitors that a node shows at once, at most.
 AQUARAMA_CONSTANT uint kMostDrawn = 256U;
