@@ -49,30 +49,43 @@ float fresnel(float inward) {
     return 0.5 * (s * s + p * p);
 }
 
-// The mirrored light of the water below. It is already coloured: it is computed for a depth where the
-// filter has no effect, and not graded.
-vec3 mirroredWater(vec3 down, float range) {
-    return ungraded(openWater(down, sunAndFilterDepth.w), range, sunAndFilterDepth.w);
-}
+// What a stretch of the surface shows: light from above; of the mirrored sea floor, as it reaches the eye, and of the
+// mirrored water, as it is at the mirror.
+struct Stretch {
+    vec3 above, floor, water;
+};
 
-// The mirrored light from below: of the sea floor, as far as the water lets it through, and of the
-// water.
-vec3 mirroredSea(vec3 down, vec2 xz, float range) {
+// The sea floor, where a ray down from this place of the surface meets it: world metres.
+vec3 floorBelow(vec3 down, vec2 xz) {
     float depth = 8.0;
     vec2 hit = xz;
     for (int i = 0; i < 2; ++i) {
         hit = xz + down.xz * (depth / max(-down.y, 0.05));
         depth = -textureLod(topHeights, hit / kPlaceMetres + 0.5, placeLod(0.6)).x;
     }
-    float further = depth / max(-down.y, 0.05);
-    vec3 bottom = vec3(hit.x, -depth, hit.y);
-    vec3 sand = litAt(2.0, Occlusion(sunPast(bottom), 1.0), vec3(0.30, 0.27, 0.22), bottom,
-                      vec3(0.0, 1.0, 0.0), 0.0);
-    return direct(sand, range + further, depth) +
-           direct(mirroredWater(down, range) * (0.8 - 0.8 * exp(-0.11 * further)), range, sunAndFilterDepth.w);
+    return vec3(hit.x, -depth, hit.y);
 }
 
-vec3 surfaceSeen(vec3 w, vec2 xz, float range, float footprint) {
+// Sand in the light from above. A mirror of waves shows neither the colours of the caustics nor the lamp's light.
+vec3 mirroredSand(vec3 bottom) {
+    float share = unscatteredShare(max(-bottom.y, 0.1));
+    vec3 sun = caustic(bottom, 2.0) * share * sunPast(bottom) * sunAndFilterDepth.y * sunlight.rgb;
+    return vec3(0.30, 0.27, 0.22) * (sun + (1.0 - share) * skylight.rgb) / kPi;
+}
+
+void mirror(inout Stretch it, float share, vec3 down, vec2 xz, float range) {
+    vec3 water = openWater(down, sunAndFilterDepth.w);
+    if (!kFine) {
+        it.water = 0.8 * share * water;
+        return;
+    }
+    vec3 bottom = floorBelow(down, xz);
+    float further = -bottom.y / max(-down.y, 0.05);
+    it.floor = share * direct(mirroredSand(bottom), range + further, -bottom.y);
+    it.water = share * (0.8 - 0.8 * exp(-0.11 * further)) * water;
+}
+
+Stretch stretchAt(vec3 w, vec2 xz, float range, float footprint) {
     Facets facets = facetsAt(xz, footprint);
     vec3 normal = normalize(vec3(-facets.slope.x, 1.0, -facets.slope.y));
     float inward = max(dot(w, normal), 0.02);
@@ -85,15 +98,22 @@ vec3 surfaceSeen(vec3 w, vec2 xz, float range, float footprint) {
     vec3 level = across * inversesqrt(max(dot(across, across), 1.0e-6));
     float sine = min(kIndex * sqrt(max(1.0 - within * within, 0.0)), 1.0);
     vec3 outward = level * sine + normal * sqrt(1.0 - sine * sine);
-    vec3 above = sky(vec3(outward.x, abs(outward.y), outward.z), 0.4 * facets.variance) *
-                 (kBrightening * enters);
+    Stretch it;
+    it.above = sky(vec3(outward.x, abs(outward.y), outward.z), 0.4 * facets.variance) *
+               (kBrightening * enters);
+    it.floor = vec3(0.0);
     vec3 down = reflect(w, -normal);
-    down = normalize(vec3(down.x, -max(abs(down.y), 0.03), down.z));
-    if (!kFine)
-        return direct(above + (1.0 - enters) * 0.8 * mirroredWater(down, range), range,
-                      sunAndFilterDepth.w);
-    // The diver's filter undoes an absorption that this light has not had, so most of it is left out.
-    return direct(above, range, 0.75 * sunAndFilterDepth.w) + (1.0 - enters) * mirroredSea(down, xz, range);
+    mirror(it, 1.0 - enters, normalize(vec3(down.x, -max(abs(down.y), 0.03), down.z)), xz, range);
+    return it;
+}
+
+// The mirrored water is already coloured: it is taken at a depth where the filter has no effect, and not graded. The
+// filter undoes an absorption that the light from above has not had, so that in finer tiers most of it is left out.
+vec3 seenOf(Stretch it, float range) {
+    float depth = sunAndFilterDepth.w;
+    vec3 water = ungraded(it.water, range, depth);
+    if (!kFine) return direct(it.above + water, range, depth);
+    return direct(it.above, range, 0.75 * depth) + it.floor + direct(water, range, depth);
 }
 
 void main() {
@@ -104,12 +124,19 @@ void main() {
     float across = range * sharedEyeAndPixel.w;
     float along = across / max(w.y, 0.02);
     int taps = int(clamp(round(along / across), 1.0, surfaceDetail.x));
-    vec2 stretch = along / float(taps) * normalize(w.xz + 1.0e-5);
+    vec2 step = along / float(taps) * normalize(w.xz + 1.0e-5);
     float footprint = 1.6 * sqrt(across * along / float(taps));
-    vec3 sum = vec3(0.0);
-    for (int i = 0; i < taps; ++i)
-        sum += surfaceSeen(w, place.xz + stretch * (float(i) - 0.5 * float(taps - 1)), range, footprint);
+    Stretch sum = Stretch(vec3(0.0), vec3(0.0), vec3(0.0));
+    for (int i = 0; i < taps; ++i) {
+        vec2 xz = place.xz + step * (float(i) - 0.5 * float(taps - 1));
+        Stretch one = stretchAt(w, xz, range, footprint);
+        sum.above += one.above;
+        sum.floor += one.floor;
+        sum.water += one.water;
+    }
+    float share = 1.0 / float(taps);
+    vec3 light = seenOf(Stretch(share * sum.above, share * sum.floor, share * sum.water), range);
     // The same distance as that of open water (water.frag); otherwise a line would be visible at the
     // end.
-    radiance = vec4(sum / float(taps) + inscatter(w, min(range, 80.0)), 1.0);
+    radiance = vec4(light + inscatter(w, min(range, 80.0)), 1.0);
 }
