@@ -53,9 +53,9 @@ void Console::begin(web::WebServer& server, Doors doors) {
     server_ = &server;
     doors_ = std::move(doors);
     const auto here = [this](auto what) { server_->post(std::move(what)); };
-    if (!state_.rig.watchAddress.empty())
+    if (!state_.rig.sides.watch.empty())
         hub_ = std::make_unique<ask::PictureHub>(
-            state_.rig.watchAddress,
+            state_.rig.sides.watch,
             ask::watchKeysOf(state_.rigFile, options_.keyFolder),
             ask::PictureListener{
                 [=, this](const std::string& channel, const v1::FramePicture& picture) {

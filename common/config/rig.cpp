@@ -351,7 +351,7 @@ Rig parseRig(const std::string& text, const std::string& source) {
             .stateAddress = in.network().state(),
             .metricsPort = static_cast<std::uint16_t>(in.network().metrics_port()),
             .consolePort = static_cast<std::uint16_t>(in.network().console_port()),
-            .watchAddress = in.network().watch(),
+            .sides = {.watch = in.network().watch(), .depot = in.network().depot()},
             .windowsEndShow = in.windows_end_show(),
             .cues = {},
             .channels = {},

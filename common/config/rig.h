@@ -206,6 +206,12 @@ struct Standby {
     std::vector<std::string> etcd;             // URLs of the members of etcd
 };
 
+// Where the master's machine also listens, ROUTER; empty: nowhere.
+struct SideAddresses {
+    std::string watch;  // nodes bring pictures to the console
+    std::string depot;  // machines ask for releases
+};
+
 // Where a rig's file says some of its values, for errors.
 struct RigPlaces {
     SourcePlace scene, sweetSpot, touch;
@@ -222,8 +228,8 @@ struct Rig {
     // Of the master; that of channel i is i + 1 higher. 0: no figures are served.
     std::uint16_t metricsPort = 0;
     std::uint16_t consolePort = 0;  // of the operator's console; 0: none
-    std::string watchAddress;       // where nodes bring it pictures: ROUTER; empty: nowhere
-    bool windowsEndShow = false;    // by q and Esc
+    SideAddresses sides = {};
+    bool windowsEndShow = false;  // by q and Esc
     Cues cues = {};
     std::vector<Channel> channels;
     Timing timing;

@@ -66,6 +66,24 @@ std::string portOf(const std::string& address) {
     return address.substr(address.rfind(':'));
 }
 
+namespace {
+
+// An address beside control and state: of the same host, and with a port that none of `taken` has.
+void checkBeside(const TextReader& file,
+                 const v1::Network& in,
+                 const std::string& field,
+                 const std::string& address,
+                 const std::vector<std::string>& taken) {
+    checkAddress(file, in, field, address);
+    const bool isTaken = std::ranges::any_of(taken, [&](const std::string& other) {
+        return !other.empty() && portOf(other) == portOf(address);
+    });
+    if (hostOf(address) != hostOf(in.control()) || isTaken)
+        file.refuse(in, field, field + " needs the host of control and a port of its own");
+}
+
+}  // namespace
+
 void checkNetwork(const TextReader& file, const v1::Network& in) {
     checkAddress(file, in, "control", in.control());
     checkAddress(file, in, "state", in.state());
@@ -76,11 +94,9 @@ void checkNetwork(const TextReader& file, const v1::Network& in) {
                     "state",
                     "only one of state and control reaches past this machine: use one "
                     "host for both");
-    if (!in.has_watch()) return;
-    checkAddress(file, in, "watch", in.watch());
-    if (hostOf(in.watch()) != hostOf(in.control()) || portOf(in.watch()) == portOf(in.control()) ||
-        portOf(in.watch()) == portOf(in.state()))
-        file.refuse(in, "watch", "watch needs the host of control and a port of its own");
+    if (in.has_watch()) checkBeside(file, in, "watch", in.watch(), {in.control(), in.state()});
+    if (in.has_depot())
+        checkBeside(file, in, "depot", in.depot(), {in.control(), in.state(), in.watch()});
 }
 
 namespace {

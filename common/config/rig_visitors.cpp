@@ -140,7 +140,7 @@ void checkPictures(const TextReader& file, const v1::Rig& rig) {
         return !other.empty() && portOf(other) == portOf(in.pictures());
     };
     if (hostOf(in.pictures()) != hostOf(network.control()) || isTaken(network.control()) ||
-        isTaken(network.state()) || isTaken(network.watch()))
+        isTaken(network.state()) || isTaken(network.watch()) || isTaken(network.depot()))
         file.refuse(in, "pictures", "pictures needs the host of control and a port of its own");
 }
 

@@ -50,7 +50,7 @@ std::vector<Watcher> watchersOf(const session::Admission& admission,
                                 const std::optional<net::PeerKeys>& keys) {
     const config::Rig& rig = admission.rig;
     std::vector<Watcher> watchers;
-    if (!rig.watchAddress.empty()) watchers.push_back({rig.watchAddress, keys});
+    if (!rig.sides.watch.empty()) watchers.push_back({rig.sides.watch, keys});
     const bool isShown = rig.guests && !rig.guests->picturesAddress.empty();
     if (!isShown || (keys && admission.guestsKey.empty())) return watchers;
     watchers.push_back({rig.guests->picturesAddress, keys});
