@@ -32,6 +32,8 @@ void addKeyCommands(CommandLine& line);
 void addNodes(CommandLine& line);
 void addHall(CommandLine& line);
 void addRig(CommandLine& line);
+void addRelease(CommandLine& line);
+void addDepotCommands(CommandLine& line, CLI::App& release);  // of the command `release`
 void addDoctor(CommandLine& line);
 void addTour(CommandLine& line);
 void addPoweroff(CommandLine& line);

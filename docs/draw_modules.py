@@ -13,7 +13,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 PARTS = {  # in the order of their frames: the longest folder that fits, fill
-    "capture": "#fdebd3", "master": "#fbf6d5", "commands": "#f3efe6", "render_node": "#dcebf7",
+    "capture": "#fdebd3", "master": "#fbf6d5", "releases": "#f5e6ea", "commands": "#f3efe6", "render_node": "#dcebf7",
          "calibration": "#eee0f5", "console": "#f7e1dd", "drawings": "#e0f0ee", "guests": "#e9f0e0",
          "common": "#e2f2df"}
 ACROSS = "#00000055"  # fainter, an arrow from one part to another
@@ -24,8 +24,8 @@ EDGE = re.compile(r'" -> ".*// ([\w-]+) -> ([\w-]+)$', re.MULTILINE)
 def folders():
     """target -> the folder that declares it, and whether it is a program."""
     found = {}
-    for part in ("common", "capture", "master", "commands", "render_node", "calibration", "console", "drawings",
-                 "guests"):
+    for part in ("common", "capture", "master", "releases", "commands", "render_node", "calibration", "console",
+                 "drawings", "guests"):
         for listing in sorted((ROOT / part).rglob("CMakeLists.txt")):
             for kind, name in DECLARED.findall(listing.read_text(encoding="utf-8")):
                 target = name if kind == "program" else f"aquarama_{name}"

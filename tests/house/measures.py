@@ -20,7 +20,8 @@ MOST_COMPLEXITY_P95 = 6     # cyclomatic
 REPEATED_LINES = 10         # so many equal lines of code, one after another, are a repetition
 TABLES = ("water_lobes_table.cpp",)  # data
 
-PARTS = ("common", "capture", "master", "commands", "render_node", "calibration", "console", "drawings", "guests")
+PARTS = ("common", "capture", "master", "releases", "commands", "render_node",
+         "calibration", "console", "drawings", "guests")
 SUFFIXES = {".h", ".cpp", ".proto", ".py", ".glsl", ".vert", ".frag", ".comp"}
 
 
