@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # try-image.sh [RELEASE]: the image for a stick shows a wall of three channels, installs itself on an empty disk, starts
-# from there, and returns from a broken release to the one before, in an emulated machine.
+# from there, and returns from a broken release to the one before, in an emulated machine. Before that, the boot loader
+# alone obeys the entries of the image (tests/packaging/boot_loader.py).
 #
 # Takes the packages that packaging/try-packages.sh RELEASE has left in build/debs/RELEASE (trixie by default), and
 # makes an image with a hall of three windows of 160 x 120 pixels with a test pattern. QEMU starts it with UEFI,
@@ -18,6 +19,8 @@ if ! command -v qemu-system-x86_64 >/dev/null || [ ! -f $firmware ]; then
     echo "SKIPPED: no QEMU with UEFI; install what packaging/packages/{boot,image}.txt name" >&2
     [ -z "${CI:-}" ] && exit 77 || exit 1
 fi
+
+python3 tests/packaging/boot_loader.py
 
 # A hall of three small windows side by side, and what an emulated machine needs: more time.
 make_hall() {

@@ -102,12 +102,16 @@ class Machine:
                  self.system, "--machine", self.program, "--signed-by", self.hall.open_key],
                 env=environment, stdout=log, stderr=log, start_new_session=True)
 
+    def kill_agent(self):
+        """With what it has started."""
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(self.agent.pid, signal.SIGKILL)
+        self.agent.wait()
+
     def power_off(self):
         """All that runs on it ends at once."""
         if self.agent:
-            with contextlib.suppress(ProcessLookupError):
-                os.killpg(self.agent.pid, signal.SIGKILL)
-            self.agent.wait()
+            self.kill_agent()
         subprocess.run([self.program, "dark"], check=True)
 
     def look(self):
@@ -182,7 +186,8 @@ class Hall:
         wait_until(holds, seconds, f"{what}; {(self.folder / 'log').read_text()[-3000:]}")
 
     def wait_for_wall(self, version):
-        self.wait_for(lambda: all(m.booted() == version and m.is_lit() for m in self.machines), f"{version} on the wall")
+        self.wait_for(lambda: all(machine.booted() == version and machine.is_lit() for machine in self.machines),
+                      f"{version} on the wall")
 
     def stage(self, version):
         done = self.ask("stage", version)
@@ -197,11 +202,15 @@ class Hall:
             self.ask("go")
         return status["phase"] == "settled"
 
-    def cut(self, machine):
-        """The power of a machine, or of the depot, goes and comes."""
-        if machine:
+    def cut(self, chance):
+        """A machine loses its power, an agent dies, or the depot does."""
+        machine = chance.choice(self.machines)
+        victim = chance.choice(["machine", "machine", "agent", "depot"])
+        if victim == "machine":
             machine.power_off()
             machine.power_on()
+        elif victim == "agent":
+            machine.kill_agent()
         else:
             self.depot.kill()
             self.depot.wait()
@@ -276,7 +285,7 @@ class Releases(unittest.TestCase):
             for _ in range(2):
                 for _ in range(chance.randrange(1, 40)):
                     self.hall.go_on()
-                self.hall.cut(chance.choice([*self.hall.machines, None]))
+                self.hall.cut(chance)
             self.hall.wait_for(self.hall.go_on, "an end")
             stable = self.hall.status()["stable"]["version"]
             taken += stable == version

@@ -90,10 +90,58 @@ class Entry(unittest.TestCase):
                      "panic=5", "loglevel=0"):
             self.assertIn(word, words)
 
+    def test_orders_releases_by_their_serial(self):
+        def lines(*serial):
+            return subprocess.run([IMAGE / "entry", "1.2.3", "show", "0a-1b", *serial], capture_output=True, text=True,
+                                  check=True).stdout.splitlines()
+        self.assertEqual(lines("17")[1:3], ["sort-key aquarama", "version 17"])
+        self.assertEqual(lines()[1:3], ["sort-key aquarama", "version 0"])  # nobody has signed it
+
     def test_only_the_show_is_black_and_starts_anew_after_a_panic(self):
         for mode in ("install", "rescue"):
             self.assertIn(f"aquarama.mode={mode}", self.entry(mode))
             self.assertNotIn("panic=", self.entry(mode))
+
+
+class Frames(unittest.TestCase):
+    """What the agent is told of the nodes, by a pretended service manager."""
+
+    def frames(self, **said):
+        with tempfile.TemporaryDirectory() as temporary:
+            folder = Path(temporary)
+            for name, text in (("channels", "\n".join(f"echo {channel}" for channel in said)),
+                               ("systemctl", "cat " + temporary + "/${5#aquarama-node@}")):
+                (folder / name).write_text("#!/bin/sh\n" + text + "\n")
+                (folder / name).chmod(0o755)
+            for channel, status in said.items():
+                (folder / channel).write_text(status + "\n")
+            shutil.copy(IMAGE / "machine", folder)
+            return subprocess.run([folder / "machine", "frames"], capture_output=True, text=True, check=True,
+                                  timeout=30, env=os.environ | {"PATH": f"{temporary}:{os.environ['PATH']}"}).stdout
+
+    def test_are_those_of_the_channel_that_has_presented_the_fewest(self):
+        self.assertEqual(self.frames(left="frame 700", right="frame 90"), "90\n")
+        self.assertEqual(self.frames(left="frame 700", right="waits for the master"), "0\n")
+        self.assertEqual(self.frames(left="frame 700", right=""), "0\n")
+        self.assertEqual(self.frames(), "")
+
+
+class Signature(unittest.TestCase):
+    def test_of_an_image_is_what_machines_take(self):
+        aquarama = Path(os.environ["AQUARAMA_BIN"]) / "aquarama"
+        with tempfile.TemporaryDirectory() as temporary:
+            release, key = Path(temporary) / "1.2.3", Path(temporary) / "show.key"
+            release.mkdir()
+            for file in ("vmlinuz", "initrd.img", "filesystem.squashfs"):
+                (release / file).write_text(file)
+            subprocess.run([aquarama, "release", "key", "new", key], check=True, capture_output=True)
+            sign = (f"source <(sed -n '/^sign()/,/^}}/p' {IMAGE.parent}/build-image); key={key} version=1.2.3; "
+                    f"sign {release} 17")
+            subprocess.run(["bash", "-euc", sign], check=True)
+            checked = subprocess.run([aquarama, "release", "check", release, "--key", f"{key}.pub"],
+                                     capture_output=True, text=True)
+            self.assertEqual((checked.stderr, checked.stdout),
+                             ("", "release 1.2.3 is as it was signed: serial 17, 3 files\n"))
 
 
 if __name__ == "__main__":
