@@ -256,6 +256,14 @@ class Releases(unittest.TestCase):
         self.assertEqual(self.hall.ask("back").returncode, 0)
         self.hall.wait_for_wall("1.0")
 
+    def test_nobody_needs_to_say_go_while_the_wall_is_closed(self):
+        hours = self.hall.folder / "state/aquarama/console/desk/hours.txtpb"
+        hours.parent.mkdir(parents=True, exist_ok=True)
+        hours.write_text('zone: "Europe/Berlin"\n')  # never open
+        self.hall.release("1.1")
+        self.assertEqual(self.hall.ask("stage", "1.1").returncode, 0)
+        self.hall.wait_for_wall("1.1")
+
     def test_all_return_where_one_machine_shows_nothing(self):
         self.hall.machines[1].put("blind-1.1", "")
         self.hall.release("1.1")

@@ -16,6 +16,7 @@
 #include "common/motion/repertoire.h"
 #include "master/simulation/living_world.h"
 #include "master/world/world_state.h"
+#include "releases/messages.h"
 #include "tests/common/formats/sample_walls.h"
 #include "tests/common/formats/vendor_samples.h"
 #include "tests/common/osc/sample_packets.h"
@@ -70,6 +71,27 @@ TEST(Fuzz, damagedRepertoiresAreRefusedOrReadWhole) {
         test::syntheticRepertoire(true).segments[2].controlPoints;
     seeds.push_back(inputOf(motion::encodeRepertoire(repertoire)));
     feed(fuzzRepertoire, seeds, 2000);
+}
+
+// Of a machine, of the depot, and of people.
+TEST(Fuzz, damagedMessagesOfADepotAreRefusedOrReadWhole) {
+    v1::DepotMessage report, order, piece, request;
+    releases::write(
+        releases::MachineReport{.booted = {"1.0", 10}, .epoch = 5, .held = {{"1.1", 11}}},
+        *report.mutable_report());
+    releases::write(releases::MachineOrder{.epoch = 5, .run = {"1.0", 10}, .fetch = {"1.1", 11}},
+                    *order.mutable_order());
+    order.mutable_order()->set_lease_s(60);
+    piece.mutable_piece()->set_version("1.1");
+    piece.mutable_piece()->set_file("vmlinuz");
+    piece.mutable_piece()->set_offset(7);
+    piece.mutable_piece()->set_content("kernel");
+    request.mutable_request()->set_what(v1::DepotRequest::STAGE);
+    request.mutable_request()->set_version("1.1");
+    std::vector<FuzzInput> seeds;
+    for (const v1::DepotMessage& message : {report, order, piece, request})
+        seeds.push_back(inputOf(releases::encode(message)));
+    feed(fuzzDepot, seeds, 20'000);
 }
 
 TEST(Fuzz, damagedSavesAreRefusedOrCanBeGoneOnFrom) {

@@ -17,6 +17,7 @@ int fuzzKeys(const std::uint8_t* bytes, std::size_t size);
 int fuzzScene(const std::uint8_t* bytes, std::size_t size);
 int fuzzShow(const std::uint8_t* bytes, std::size_t size);
 int fuzzWire(const std::uint8_t* bytes, std::size_t size);
+int fuzzDepot(const std::uint8_t* bytes, std::size_t size);
 int fuzzRecording(const std::uint8_t* bytes, std::size_t size);
 int fuzzSave(const std::uint8_t* bytes, std::size_t size);
 int fuzzSchool(const std::uint8_t* bytes, std::size_t size);
