@@ -205,11 +205,10 @@ ReleaseContent checkRelease(const fs::path& given, const ShowKey& key) {
         if (!fs::exists(folder / own))
             throw Error("release " + folder.filename().string() + ": " + own + " is missing in " +
                         folder.string() + "; sign it (aquarama release sign)");
-    const ReleaseContent release =
-        signedList(readWhole(folder / kListFile, kMostListBytes),
-                   readWhole(folder / kSignatureFile, kMostSignatureBytes),
-                   key,
-                   (folder / kListFile).string());
+    ReleaseContent release = signedList(readWhole(folder / kListFile, kMostListBytes),
+                                        readWhole(folder / kSignatureFile, kMostSignatureBytes),
+                                        key,
+                                        (folder / kListFile).string());
     if (release.id.version != folder.filename())
         throw Error("release " + release.id.version + ": stands in a folder of another name, " +
                     folder.string() + "; name the folder as the version");
@@ -226,10 +225,10 @@ void requireSerial(const ReleaseContent& release, std::uint64_t least) {
 
 ReleaseId idIn(const fs::path& given) {
     const fs::path folder = withoutSlash(given);
-    const ReleaseId unsignedOne{folder.filename().string(), 0};
-    if (!fs::exists(folder / kListFile)) return unsignedOne;
-    const auto release = releaseIn(asText(readWhole(folder / kListFile, kMostListBytes)));
-    return release ? release->id : unsignedOne;
+    const auto release = fs::exists(folder / kListFile)
+                             ? releaseIn(asText(readWhole(folder / kListFile, kMostListBytes)))
+                             : std::nullopt;
+    return release ? release->id : ReleaseId{folder.filename().string(), 0};
 }
 
 }  // namespace aquarama::releases
