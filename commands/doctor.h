@@ -14,6 +14,7 @@ namespace aquarama {
 struct MasterAnswer {
     std::optional<v1::StatusReply> status = {};
     std::string preparing = {};
+    std::string problem = {};  // why none could be asked, as a key that cannot be read
 };
 // Asks the master of a rig, for two seconds at most. `keyFolder`: empty: the user's. Does not
 // throw.

@@ -462,8 +462,8 @@ int doctor(const DoctorOptions& options) {
 MasterAnswer answerOfMaster(const std::string& rigPath, const std::string& keyFolder) {
     try {
         return answerOf(connectToMaster(rigPath, keyFolder));
-    } catch (const Error&) {
-        return {};
+    } catch (const Error& problem) {
+        return {.problem = problem.what()};
     }
 }
 

@@ -51,6 +51,8 @@ std::string panelsOf(const config::Rig& rig) {
 // What a step says that needs a running show and has none.
 StepFinding withoutShow(const std::string& rigPath, const MasterAnswer& master) {
     if (!master.preparing.empty()) return toDo(master.preparing, "wait until it is ready");
+    if (!master.problem.empty())
+        return toDo(master.problem, "mend that: without it nobody can ask the show");
     return toDo("no show runs",
                 "start it: aquarama run " + rigPath +
                     ", or systemctl start aquarama.target on the master's machine");

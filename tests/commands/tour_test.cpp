@@ -64,6 +64,8 @@ TEST(TourMachines, theAbsentAreNamed) {
     EXPECT_EQ(lookAtMachines(kRig, {}).what, "no show runs");
     EXPECT_EQ(lookAtMachines(kRig, {.preparing = "the master prepares: reef"}).what,
               "the master prepares: reef");
+    EXPECT_EQ(lookAtMachines(kRig, {.problem = "operator.key: is not there"}).what,
+              "operator.key: is not there");
     MasterAnswer master = masterWith({{"left", "a"}, {"middle", "b"}, {"right", "-"}});
     master.status->mutable_nodes(2)->set_machine("right-pc");
     const StepFinding finding = lookAtMachines(kRig, master);
