@@ -1,5 +1,5 @@
-// Bloom: bright places glow a little, as in an eye and in a lens. Gives sceneLight(): linear light of the scene at uv (0
-// to 1, origin bottom left) with its glow, which glow.frag has made.
+// Bloom: bright places glow a little, as in an eye and in a lens. Gives sceneLight(): linear light of
+// the scene at uv (0 to 1, origin bottom left) with its glow, which glow.frag has made.
 #ifndef BLOOM_GLSL
 #define BLOOM_GLSL
 #include "shader_interface.h"

@@ -27,9 +27,12 @@
 
 namespace aquarama::surface {
 
-// Surfaces of a view take so many bytes at most: room for 60 000 control meshes, or 18 000 meshes,
-// or 4 800 heroes; heroes are placed first. Fish for which no room is left are drawn as few
-// triangles. That needs a school denser than one fish in each cube of its length.
+// Surfaces of a view have room for every fish as a mesh, and so much more for those that are
+// nearer; in all, so many bytes at most: 60 000 control meshes, or 18 000 meshes, or 4 800 heroes.
+// Heroes are placed first. Fish for which no room is left are drawn as few triangles. That needs a
+// school denser than one fish in each cube of its length.
+inline constexpr std::size_t kMeshBytes = std::size_t{32} << 10U;
+inline constexpr std::size_t kNearBytes = std::size_t{64} << 20U;
 inline constexpr std::size_t kSurfaceBytes = std::size_t{512} << 20U;
 // Without levels of detail, where all fish are heroes: room for 24 000.
 inline constexpr std::size_t kMostSurfaceBytes = 5 * kSurfaceBytes;

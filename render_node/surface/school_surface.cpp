@@ -210,6 +210,8 @@ struct SchoolSurface::Parts {
         setConstants();
     }
 
+    // Returns how many vertices a page holds.
+    std::size_t makePages();
     void makeBuffers();
     void makeVertexArrays() const;
     void setConstants() const;
@@ -261,19 +263,27 @@ std::size_t blockLimit() {
 
 }  // namespace
 
-// The pages have room for the whole school at its finest level, as far as there may be so many.
+std::size_t SchoolSurface::Parts::makePages() {
+    const std::size_t fish = records.fish();
+    const std::size_t most = options.levelsOfDetail
+                                 ? std::min(kSurfaceBytes, kNearBytes + fish * kMeshBytes)
+                                 : kMostSurfaceBytes;
+    const std::size_t heroBytes = tables.mostVertices * kBytesPerVertex;
+    const std::size_t heroes =
+        std::clamp<std::size_t>(most / heroBytes, 1, std::max<std::size_t>(fish, 1));
+    const std::size_t pageBytes =
+        std::min({options.pageBytes, blockLimit() / 2, heroes * heroBytes});
+    const std::size_t heroesAPage = std::max<std::size_t>(pageBytes / heroBytes, 1);
+    pages.resize(std::min((heroes + heroesAPage - 1) / heroesAPage, kMostPages));
+    const std::size_t room = pageBytes / kBytesPerVertex;
+    assert(room > 0);
+    for (gl::Buffer& page : pages) page = gl::makeBuffer(room * kBytesPerVertex, "fish surfaces");
+    return room;
+}
+
 void SchoolSurface::Parts::makeBuffers() {
     const std::size_t fish = records.fish();
-    const std::size_t pageBytes = std::min(options.pageBytes, blockLimit() / 2);
-    const std::size_t most = pageBytes / kBytesPerVertex;
-    assert(most > 0);
-    const std::size_t wanted = std::max<std::size_t>(fish, 1) * tables.mostVertices;
-    const std::size_t room = std::min(most, wanted);
-    const std::size_t heroesAPage = std::max<std::size_t>(room / tables.mostVertices, 1);
-    const std::size_t wantedPages = (fish + heroesAPage - 1) / heroesAPage;
-    const std::size_t bytes = options.levelsOfDetail ? kSurfaceBytes : kMostSurfaceBytes;
-    pages.resize(std::clamp<std::size_t>(wantedPages, 1, std::min(bytes / pageBytes, kMostPages)));
-    for (gl::Buffer& page : pages) page = gl::makeBuffer(room * kBytesPerVertex, "fish surfaces");
+    const std::size_t room = makePages();
     choices = gl::makeBuffer(fish * sizeof(std::uint32_t), "fish choices");
     counts = gl::makeBuffer(tables.groups * kDetailStride * sizeof(std::uint32_t), "fish counts");
     plan = gl::makeBuffer(sizeof(FishPlan), "fish plan");
