@@ -43,6 +43,7 @@ std::optional<ConsoleRole> roleFor(const browser::Command& command) {
                                                     {What::kUseCalibration, ConsoleRole::Crew},
                                                     {What::kPower, ConsoleRole::Crew},
                                                     {What::kAssign, ConsoleRole::Crew},
+                                                    {What::kRelease, ConsoleRole::Crew},
                                                     {What::kOrder, ConsoleRole::Operator}};
     const auto role = kRoles.find(command.what_case());
     if (command.order().has_power()) return ConsoleRole::Crew;
@@ -237,6 +238,8 @@ Answer Commands::carryOutAllowed(const Holder& holder, Visitor* visitor, const C
             return useKept(holder, visitor, command);
         case What::kAssign:
             return assignNode(holder, visitor, command);
+        case What::kRelease:
+            return changeRelease(holder, visitor, command);
         case What::kPicture:
             return readPicture(holder, visitor, command);
         case What::kOrder:
@@ -537,6 +540,15 @@ Answer Commands::assignNode(const Holder& holder, Visitor* visitor, const Comman
         return refused("something else is under way; say it again");
     waiting_[command.id()] = {
         visitor, holder.name, "node " + node->letter + " gets the channel " + channel->name};
+    return {Outcome::Waiting, ""};
+}
+
+Answer Commands::changeRelease(const Holder& holder, Visitor* visitor, const Command& command) {
+    const std::string& word = command.release();
+    if (!isReleaseWord(word)) return refused("releases know \"go\" and \"back\" only");
+    if (!errands_.change(word, command.id()))
+        return refused("something else is under way; say it again");
+    waiting_[command.id()] = {visitor, holder.name, "release: " + word};
     return {Outcome::Waiting, ""};
 }
 

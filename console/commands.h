@@ -103,6 +103,9 @@ class Commands {
     [[nodiscard]] ask::Answer assignNode(const Holder& holder,
                                          Visitor* visitor,
                                          const Command& command);
+    [[nodiscard]] ask::Answer changeRelease(const Holder& holder,
+                                            Visitor* visitor,
+                                            const Command& command);
     [[nodiscard]] ask::Answer readPicture(const Holder& holder,
                                           Visitor* visitor,
                                           const Command& command);

@@ -299,7 +299,8 @@ void Console::everySecond() {
     for (const std::string& line : lines) visitors_.note("alert", line);
     for (const auto& [who, what] : projectorBook_.update(state_.opening.projectors(), now))
         visitors_.note(who, what);
-    if (visitors_.wantCalibrations()) errands_.wantCalibrations(ticks_);
+    if (visitors_.isLookedAt("calibrations")) errands_.wantCalibrations(ticks_);
+    if (visitors_.isLookedAt("machines")) errands_.wantReleases(ticks_);
     if (const auto ended = errands_.hear())
         commands_.said(ended->command,
                        ended->refusal.empty() ? ask::Answer{}

@@ -29,6 +29,21 @@ void Errands::wantCalibrations(int ticks) {
     reading_ = std::async(std::launch::async, work_.calibrationsOf, state_.rigFile);
 }
 
+void Errands::wantReleases(int ticks) {
+    constexpr int kTicksBetween = 20;
+    if ((state_.releases && ticks < askingDue_) || asking_.valid()) return;
+    askingDue_ = ticks + kTicksBetween;
+    asking_ = std::async(std::launch::async, work_.releasesOf, state_.rigFile);
+}
+
+bool Errands::change(const std::string& releaseWord, std::uint64_t command) {
+    return begin(
+        [change = work_.changeRelease, rig = state_.rigFile, releaseWord] {
+            return change(rig, releaseWord);
+        },
+        command);
+}
+
 bool Errands::use(const std::string& calibration, std::uint64_t command) {
     return begin(
         [use = work_.useCalibration, rig = state_.rigFile, calibration] {
@@ -54,8 +69,9 @@ std::optional<Errands::Ended> Errands::hear() {
         state_.doctor.set_running(false);
     }
     if (isReady(reading_)) state_.calibrations = reading_.get();
+    if (isReady(asking_)) state_.releases = asking_.get();
     if (!isReady(errand_)) return std::nullopt;
-    readingDue_ = 0;
+    readingDue_ = askingDue_ = 0;
     return Ended{command_, errand_.get()};
 }
 

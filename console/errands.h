@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What takes the console seconds and is done on threads of its own: the doctor's report, reading
-// calibrations, putting one in place, and giving a node a channel.
+// calibrations and putting one in place, giving a node a channel, and speaking with the depot of
+// releases.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +13,7 @@
 
 #include "console/console.pb.h"
 #include "console/files_of_show.h"
+#include "console/releases_of_hall.h"
 #include "console/state.h"
 #include "console/waiting_nodes.h"
 
@@ -25,6 +27,9 @@ struct ErrandWork {
     std::function<std::string(const std::string& rigPath, const std::string& name)> useCalibration =
         console::useCalibration;
     std::function<std::string(const Assignment& assignment)> assignNode = console::assignNode;
+    std::function<browser::Releases(const std::string& rigPath)> releasesOf = console::releasesOf;
+    std::function<std::string(const std::string& rigPath, const std::string& word)> changeRelease =
+        console::changeRelease;
 };
 
 // Of the server's thread, which never waits for them.
@@ -38,10 +43,13 @@ class Errands {
     // Reads calibrations where that is due: every five seconds while somebody looks, as there may
     // be thirty large files. `ticks`: tenths of a second since the start.
     void wantCalibrations(int ticks);
-    // Puts a calibration in place, or gives a node a channel, for the command of this number.
-    // False: another command waits for such an errand.
+    // Asks the depot of releases where that is due: every two seconds while somebody looks.
+    void wantReleases(int ticks);
+    // Puts a calibration in place, gives a node a channel, or says a word to the depot, for the
+    // command of this number. False: another command waits for such an errand.
     [[nodiscard]] bool use(const std::string& calibration, std::uint64_t command);
     [[nodiscard]] bool assign(const Assignment& assignment, std::uint64_t command);
+    [[nodiscard]] bool change(const std::string& releaseWord, std::uint64_t command);
 
     // What has ended: the command, and why it was refused (empty: it was not).
     struct Ended {
@@ -57,6 +65,8 @@ class Errands {
     std::future<browser::DoctorReport> doctor_;
     std::future<browser::Calibrations> reading_;
     int readingDue_ = 0;  // tick
+    std::future<browser::Releases> asking_;
+    int askingDue_ = 0;  // tick
     [[nodiscard]] bool begin(std::function<std::string()> errand, std::uint64_t command);
 
     std::future<std::string> errand_;  // of a command

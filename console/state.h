@@ -51,6 +51,7 @@ struct State {
     browser::Wall wall;    // as the master last said it
     browser::DoctorReport doctor;
     std::optional<browser::Calibrations> calibrations = {};  // as they were last read
+    std::optional<browser::Releases> releases = {};          // as the depot last said it
     std::string code = {};          // the last pairing code that somebody asked for in a page
     std::string doubtOfClock = {};  // empty: it may be right
     std::uint64_t refused = 0;      // requests, since the start

@@ -87,9 +87,9 @@ void Visitors::sendCalibrations(Visitor& visitor) {
     sendTo(visitor, "calibrations", message);
 }
 
-bool Visitors::wantCalibrations() const {
-    return std::ranges::any_of(visitors_, [](const Visitor* visitor) {
-        return visitor->ticksToLook > 0 && visitor->wants("calibrations");
+bool Visitors::isLookedAt(const char* topic) const {
+    return std::ranges::any_of(visitors_, [topic](const Visitor* visitor) {
+        return visitor->ticksToLook > 0 && visitor->wants(topic);
     });
 }
 
@@ -141,7 +141,7 @@ void Visitors::sendTopics(Visitor& visitor) {
          {"history", &Visitors::sendWholeHistory},
          {"hours", &Visitors::sendHours},
          {"people", &Visitors::sendPeople},
-         {"waiting", &Visitors::sendWaiting}}};
+         {"machines", &Visitors::sendMachines}}};
     if (!visitor.wants("history")) visitor.hasHistory = false;
     for (const auto& [topic, send] : kTopics)
         if (visitor.wants(topic)) (this->*send)(visitor);
@@ -216,10 +216,14 @@ void Visitors::sendPeople(Visitor& visitor) {
     sendTo(visitor, "people", message);
 }
 
-void Visitors::sendWaiting(Visitor& visitor) {
+// Those that wait for a channel, and what all run; of that nothing before the depot was asked once.
+void Visitors::sendMachines(Visitor& visitor) {
     browser::ToBrowser message;
     *message.mutable_waiting_nodes() = listOf(state_.waiting, state_.searchesNodes);
-    sendTo(visitor, "waiting", message);
+    sendTo(visitor, "waiting nodes", message);
+    if (!state_.releases) return;
+    *message.mutable_releases() = *state_.releases;
+    sendTo(visitor, "releases", message);
 }
 
 // Under its topic: an older one that waits still is replaced.
@@ -256,6 +260,7 @@ browser::ToBrowser Visitors::snapshotFor(const Visitor& visitor) const {
     snapshot.set_has_power(machine::takesPowerWord(machine::powerFolder()));
     snapshot.set_has_guests(state_.rig.guests.has_value());
     snapshot.set_has_drawings(state_.rig.drawings.has_value());
+    snapshot.set_has_depot(!state_.rig.sides.depot.empty());
     snapshot.set_reads_pictures(readsPictures_);
     for (const config::Channel& from : state_.rig.channels) {
         browser::Channel& channel = *snapshot.add_channels();

@@ -84,8 +84,8 @@ class Visitors {
     void everySecond();
     // With what the console itself knows of the wall. `refused`: requests, by console and server.
     void sendWall(std::uint64_t refused);
-    // Whether somebody looks at calibrations.
-    [[nodiscard]] bool wantCalibrations() const;
+    // Whether somebody's page shows this topic.
+    [[nodiscard]] bool isLookedAt(const char* topic) const;
 
   private:
     // What a channel was last asked for. `ticksToAsk`: until it is asked again.
@@ -101,7 +101,7 @@ class Visitors {
     void sendCalibrations(Visitor& visitor);
     void sendDrawings(Visitor& visitor);
     void sendPeople(Visitor& visitor);
-    void sendWaiting(Visitor& visitor);
+    void sendMachines(Visitor& visitor);
     void sendPanorama(Visitor& visitor);
     void sendToAll(const std::string& topic, const browser::ToBrowser& message);
     [[nodiscard]] browser::ToBrowser snapshotFor(const Visitor& visitor) const;

@@ -3,6 +3,7 @@
 import {html, nothing} from '/vendor/lit-html.js';
 import {Plot, button, channelsOf, conditionOf, filter, holdButton, ms, skewBars, state, t, time,
   word} from '/widgets.js';
+import {releases} from '/releases.js';
 import {waitingNodes} from '/waiting.js';
 
 // --- figures of the last ten minutes and of the last day
@@ -130,7 +131,7 @@ function service(link) {
 }
 
 export const nodesPage = {
-  look: () => ({topics: ['history', 'waiting']}),
+  look: () => ({topics: ['history', 'machines']}),
   view: link => {
     drawPlots(link);
     return html`<section class="panel wide"><div class="scroll" tabindex="0" role="region"
@@ -140,7 +141,8 @@ export const nodesPage = {
       <tbody>${(link.status.nodes ?? []).map(nodeRow(link))}</tbody></table></div></section>
       ${waitingNodes(link)}
       <div class="panels"><section
-        class="panel"><h2>${t('skew.title')}</h2>${skewBars(link.status.skewCounts)}</section>${service(link)}</div>
+        class="panel"><h2>${t('skew.title')}</h2>${skewBars(link.status.skewCounts)}</section>
+        ${service(link)}${releases(link)}</div>
       <div class="panels plots">${plots.map(([plot], i) => html`<section class="panel"><h2>${t(['nodes.tenMinutes',
       'nodes.tenMinutesSkew', 'nodes.day', 'nodes.daySkew'][i])}</h2>${plot.element}
         ${plot.isEmpty ? html`<p class="note">${t('nodes.noFigures')}</p>` : nothing}</section>`)}</div>`;

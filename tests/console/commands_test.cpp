@@ -101,23 +101,26 @@ class DeskCommands : public testing::Test {
     test::ToldMaster master;
     Page watcher{ConsoleRole::Watcher, "wim"}, operating{ConsoleRole::Operator, "olga"},
         crew{ConsoleRole::Crew, "carl"};
-    Errands errands{parts.state,
-                    {.askDoctor =
-                         [ended = ended](const std::string&) {
-                             ended.wait_for(test::kPatience);
-                             return browser::DoctorReport();
-                         },
-                     .calibrationsOf = {},
-                     .useCalibration =
-                         [ended = ended](const std::string&, const std::string&) {
-                             ended.wait_for(test::kPatience);
-                             return std::string();
-                         },
-                     .assignNode =
-                         [ended = ended](const Assignment&) {
-                             ended.wait_for(test::kPatience);
-                             return std::string();
-                         }}};
+    Errands errands{
+        parts.state,
+        {.askDoctor =
+             [ended = ended](const std::string&) {
+                 ended.wait_for(test::kPatience);
+                 return browser::DoctorReport();
+             },
+         .calibrationsOf = {},
+         .useCalibration =
+             [ended = ended](const std::string&, const std::string&) {
+                 ended.wait_for(test::kPatience);
+                 return std::string();
+             },
+         .assignNode =
+             [ended = ended](const Assignment&) {
+                 ended.wait_for(test::kPatience);
+                 return std::string();
+             },
+         .releasesOf = {},
+         .changeRelease = [](const std::string&, const std::string&) { return std::string(); }}};
     Commands commands{parts.state, parts.visitors, errands};
 };
 
@@ -145,6 +148,7 @@ TEST_F(DeskCommands, eachNeedsItsRole) {
           [](Command& of) { of.set_use_calibration(kVersion); },
           [](Command& of) { of.set_power("no word"); },
           [](Command& of) { of.mutable_assign(); },
+          [](Command& of) { of.set_release("forward"); },
           [](Command& of) { of.mutable_order()->mutable_power()->set_channel("left"); }}}};
     std::uint64_t id = 0;
     for (const auto& [least, all] : kinds)
@@ -156,7 +160,7 @@ TEST_F(DeskCommands, eachNeedsItsRole) {
                 EXPECT_EQ(reason != "only " + least + " may do this", isAllowed)
                     << given.DebugString() << reason;
             }
-    EXPECT_EQ(parts.state.refused, 7U + 2 * 8U) << "in the foot of every page";
+    EXPECT_EQ(parts.state.refused, 7U + 2 * 9U) << "in the foot of every page";
     EXPECT_THAT(parts.events(), Contains("wim: refused: it needs crew"));
 }
 
@@ -169,6 +173,16 @@ TEST_F(DeskCommands, aNodeThatWaitsIsGivenAChannelAndTheCodeIsToldToNobody) {
     commands.said(3, {});
     EXPECT_THAT(parts.events(), Contains("carl: node B gets the channel left"));
     for (const std::string& event : parts.events()) EXPECT_THAT(event, Not(HasSubstr("K7M4")));
+}
+
+TEST_F(DeskCommands, theDepotIsToldGoOrBackAndNothingElse) {
+    const auto say = [&](std::uint64_t id, const std::string& word) {
+        return give(crew, command(id, [&](Command& of) { of.set_release(word); }));
+    };
+    EXPECT_THAT(say(1, "--help").reason(), HasSubstr("\"go\" and \"back\" only"));
+    EXPECT_EQ(say(2, "go").outcome(), Reply::WAITING);
+    commands.said(2, {ask::Outcome::Refused, "not all machines have it"});
+    EXPECT_THAT(parts.events(), Contains("carl: release: go, refused: not all machines have it"));
 }
 
 TEST_F(DeskCommands, whatIsNoCommandIsRefused) {

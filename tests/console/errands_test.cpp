@@ -42,7 +42,16 @@ class HeldErrands : public testing::Test {
                 .assignNode =
                     [](const Assignment& assignment) {
                         return "no node waits for " + assignment.channel;
-                    }};
+                    },
+                .releasesOf =
+                    [this](const std::string&) {
+                        ++asked;
+                        browser::Releases releases;
+                        releases.set_stable("1.4." + std::to_string(asked));
+                        return releases;
+                    },
+                .changeRelease = [](const std::string&,
+                                    const std::string& word) { return "no " + word; }};
     }
     void hold(std::atomic<int>& count) {
         ++count;
@@ -55,7 +64,7 @@ class HeldErrands : public testing::Test {
     bool isLetGo = false;
     std::promise<void> end;
     const std::shared_future<void> ended = end.get_future().share();
-    std::atomic<int> doctors = 0, readings = 0, uses = 0;
+    std::atomic<int> doctors = 0, readings = 0, uses = 0, asked = 0;
     test::ConsoleParts parts;
     Errands errands{parts.state, work()};
 };
@@ -118,6 +127,45 @@ TEST_F(HeldErrands, aNodeIsGivenAChannelWhereNoCalibrationIsPutInPlace) {
     ASSERT_TRUE(test::comesTrue([&] { return (told = errands.hear()).has_value(); }));
     EXPECT_EQ(told->command, 9U);
     EXPECT_EQ(told->refusal, "no node waits for left");
+}
+
+// While somebody looks; and at once after the crew has said a word.
+TEST_F(HeldErrands, theDepotIsAskedEveryTwoSeconds) {
+    const auto stable = [&] {
+        static_cast<void>(errands.hear());
+        return parts.state.releases ? parts.state.releases->stable() : "";
+    };
+    errands.wantReleases(5);
+    EXPECT_TRUE(test::comesTrue([&] { return stable() == "1.4.1"; }));
+    errands.wantReleases(24);
+    EXPECT_EQ(asked, 1);
+    errands.wantReleases(25);
+    EXPECT_TRUE(test::comesTrue([&] { return stable() == "1.4.2"; }));
+    EXPECT_TRUE(errands.change("go", 7));
+    std::optional<Errands::Ended> told;
+    ASSERT_TRUE(test::comesTrue([&] { return (told = errands.hear()).has_value(); }));
+    EXPECT_EQ(told->refusal, "no go");
+    errands.wantReleases(26);
+    EXPECT_TRUE(test::comesTrue([&] { return stable() == "1.4.3"; }));
+}
+
+TEST(ReleasesOfHall, areReadAsTheDepotSaysThem) {
+    const browser::Releases releases = releasesIn(
+        R"({"phase":"copying","stable":{"version":"1.3.0","serial":5},)"
+        R"("candidate":{"version":"1.4.0","serial":9},"before":null,"ready":true,)"
+        R"("reason":"","waiting_for":"the hours","machines":[{"name":"main",)"
+        R"("runs":{"version":"1.3.0","serial":5},"silent_s":0.4,"frames":7,"problem":""},)"
+        R"({"name":"left-pc","runs":null,"silent_s":1e9,"frames":0,"problem":"its disk is full"},3]})");
+    EXPECT_FALSE(releases.has_problem());
+    EXPECT_EQ(releases.phase(), "copying");
+    EXPECT_EQ(releases.stable() + " " + releases.candidate() + releases.before(), "1.3.0 1.4.0");
+    EXPECT_TRUE(releases.ready());
+    ASSERT_EQ(releases.machines_size(), 2);
+    EXPECT_EQ(releases.machines(0).runs(), "1.3.0");
+    EXPECT_EQ(releases.machines(1).runs(), "");
+    EXPECT_EQ(releases.machines(1).problem(), "its disk is full");
+    EXPECT_EQ(releasesIn("no depot").problem(), "the depot's answer cannot be read");
+    EXPECT_EQ(releasesIn("{}").machines_size(), 0);
 }
 
 // The list of a page names the one that is in place now.

@@ -129,11 +129,11 @@ TEST_F(DeskPages, theWholeHistoryIsSentOnceThenTheLastSecond) {
 TEST_F(DeskPages, aLookIsForgottenAfterThreeSeconds) {
     visitors.takeLook(watcher.visitor, lookAt({"calibrations"}));
     pass(29);
-    EXPECT_TRUE(visitors.wantCalibrations());
+    EXPECT_TRUE(visitors.isLookedAt("calibrations"));
     pass(1);
-    EXPECT_FALSE(visitors.wantCalibrations());
+    EXPECT_FALSE(visitors.isLookedAt("calibrations"));
     visitors.takeLook(watcher.visitor, lookAt({"calibrations"}));
-    EXPECT_TRUE(visitors.wantCalibrations());
+    EXPECT_TRUE(visitors.isLookedAt("calibrations"));
 }
 
 TEST_F(DeskPages, theConnectionsOfASessionThatEndsAreClosed) {

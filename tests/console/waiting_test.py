@@ -50,16 +50,18 @@ class Waiting(unittest.TestCase):
         cls.folder = temporary_folder()
         cls.addClassCleanup(cls.folder.cleanup)
         cls.at = Path(cls.folder.name)
-        cls.rig, cls.keys, cls.processes = cls.at / "hall.txtpb", cls.at / "keys", []
+        os.environ["XDG_CONFIG_HOME"] = str(cls.at)
+        cls.rig, cls.keys, cls.processes = cls.at / "hall.txtpb", cls.at / "aquarama/keys/hall", []
         text = (ROOT / "config/desk.txtpb").read_text().replace("127.0.0.1", MASTER)
         text = text.replace("scenes/", f"{ROOT}/config/scenes/")
         text = re.sub(r"timing \{.*?\}", "timing { refresh_hz: 4 }", text, flags=re.S)
         for side in CHANNELS:
             text = text.replace(f'name: "{side}"', f'name: "{side}"\n  machine: "{side}-pc"')
+        text = re.sub(r"( +)(watch: \S+)", rf'\1\2\n\1depot: "tcp://{MASTER}:7403"', text, count=1)
         cls.rig.write_text(text)
-        made = aquarama("keys", "new", cls.rig, "--keys", cls.keys)
+        made = aquarama("keys", "new", cls.rig)
         assert made.returncode == 0, made.stderr
-        cls.processes.append(start("run", cls.rig, "--keys", cls.keys, "--headless", "--live", "--pattern", "grid",
+        cls.processes.append(start("run", cls.rig, "--headless", "--live", "--pattern", "grid",
                                    log=cls.at / "log"))
         cls.addClassCleanup(lambda: end(cls.processes[::-1]))
         wait_until(lambda: "pairing code" in cls.said("log"), 90, "the console")
@@ -140,6 +142,25 @@ class Waiting(unittest.TestCase):
         wait_until(lambda: self.is_in_step("left"), 60, "the spare machine in step")
         end([self.processes[1]])  # the node that had the channel: nobody misses it
         wait_until(lambda: self.is_in_step("left"), 60, "the spare machine in step without the other")
+
+    def test_the_release_of_all_machines_is_shown_and_the_crew_has_a_word(self):
+        wait_until(lambda: "no depot answers" in find(self.driver, "[aria-labelledby=releases]").text, 20,
+                   "what is said without a depot")
+        depot, key = self.at / "depot", self.at / "show.key"
+        depot.mkdir()
+        self.assertEqual(aquarama("release", "key", "new", key).returncode, 0)
+        self.processes.append(start("release", "serve", self.rig, "--depot", depot, "--signed-by",
+                                    key.with_suffix(".key.pub"), log=self.at / "depot.log"))
+        shown = lambda: find(self.driver, "[aria-labelledby=releases]").text
+        wait_until(lambda: "Not all machines have said yet" in shown(), 30, "what the depot says")
+        rows = [row.text for row in self.driver.find_elements(By.CSS_SELECTOR, "[aria-labelledby=releases] tr")]
+        self.assertEqual([row.split()[0] for row in rows], ["main", "left-pc", "middle-pc", "right-pc"])
+        # Nothing waits: neither word can be said.
+        for word in ("go", "back"):
+            self.assertFalse(find(self.driver, f'[data-of="{word}"]').is_enabled())
+        if SHOTS:
+            (Path(SHOTS) / "releases.png").write_bytes(
+                find(self.driver, "[aria-labelledby=releases]").screenshot_as_png)
 
 
 if __name__ == "__main__":
