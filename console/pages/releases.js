@@ -10,7 +10,8 @@ const head = ({phase, stable, candidate}) => !stable ? t('releases.unknown')
 const SILENT_S = 10;
 const row = ({name, runs, silentS, problem}) => html`<tr><th scope="row">${name}</th><td>${runs || '–'}</td>
   <td>${problem ? html`<span class="bad">✖ ${problem}</span>` : !runs || silentS > SILENT_S
-    ? html`<span class="warn">▲ ${t('releases.silent')}</span>` : html`<span class="good">● ${t('releases.heard')}</span>`}
+    ? html`<span class="warn">▲ ${t('releases.silent')}</span>`
+    : html`<span class="good">● ${t('releases.heard')}</span>`}
   </td></tr>`;
 
 const say = (link, what, disabled, values) => {
