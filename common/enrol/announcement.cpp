@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <chrono>
 #include <mutex>
 
 #include <avahi-common/error.h>
 
 #include "common/base/log.h"
+#include "common/base/random_bytes.h"
 #include "common/enrol/discovery.h"
 #include "common/enrol/mdns.h"
 
@@ -11,9 +13,10 @@ namespace aquarama::enrol {
 
 namespace {
 
+constexpr int kLetters = 26;
+
 // A to Z, then AA.
 std::string letterOf(int number) {
-    constexpr int kLetters = 26;
     std::string letter(1, static_cast<char>('A' + number % kLetters));
     return number < kLetters ? letter : letterOf(number / kLetters - 1) + letter;
 }
@@ -43,7 +46,8 @@ class Announcement::Service {
     }
     void followAddresses() {
         stack_.between([&] {
-            if (group_ && addressesByInterface() != addresses_) publish(stack_.server());
+            if (group_ && (addressesByInterface() != addresses_ || isStuck()))
+                publish(stack_.server());
         });
     }
 
@@ -62,6 +66,12 @@ class Announcement::Service {
         ++number_;
         publish(server);
     }
+    // Whether the letter was not established in a time in which it should have been.
+    [[nodiscard]] bool isStuck() const {
+        constexpr std::chrono::seconds kMost{5};
+        return avahi_s_entry_group_get_state(group_.get()) != AVAHI_ENTRY_GROUP_ESTABLISHED &&
+               std::chrono::steady_clock::now() > publishedAt_ + kMost;
+    }
     void publish(AvahiServer* server);
     // Avahi's error, as a number.
     [[nodiscard]] int add(AvahiServer* server);
@@ -70,8 +80,10 @@ class Announcement::Service {
     std::uint16_t port_;
     mutable std::mutex mutex_;
     std::string letter_;  // established; the rest is of the stack's thread
-    int number_ = 0;      // of the letter that is tried
+    // Of the letter that is tried. Nodes that start together begin at different ones: few contend.
+    int number_ = randomBytes<1>()[0] % kLetters;
     std::vector<OwnAddress> addresses_;
+    std::chrono::steady_clock::time_point publishedAt_;
     EntryGroup group_;
     MdnsStack stack_;
 };
@@ -87,6 +99,7 @@ void Announcement::Service::publish(AvahiServer* server) {
                 static_cast<Service*>(self)->hear(of, state);
             },
             this));
+    publishedAt_ = std::chrono::steady_clock::now();
     addresses_ = addressesByInterface();
     int error = group_ ? add(server) : avahi_server_errno(server);
     if (error == AVAHI_OK) error = avahi_s_entry_group_commit(group_.get());

@@ -65,7 +65,10 @@ class Mains:
                 self.processes.append(subprocess.Popen([PROGRAMS / arguments[0], *arguments[1:]], stdout=log,
                                                        stderr=subprocess.STDOUT, env=self.environment,
                                                        start_new_session=True))
-            wait_until(lambda: sign in self.log() or list(self.folder.glob(sign + "*")), 30, f"{arguments[0]}")
+            try:
+                wait_until(lambda: sign in self.log() or list(self.folder.glob(sign + "*")), 30, arguments[0])
+            except AssertionError as failure:
+                raise AssertionError(f"{failure}\n{self.log()}") from None
 
     def log(self):
         return (self.folder / "log").read_text()
@@ -80,6 +83,16 @@ class Mains:
         for process in reversed(self.processes):
             os.killpg(process.pid, signal.SIGTERM)  # upsmon has two, and upssched beside them
             process.wait(20)
+            # The next upsmon does not start while a part of this one is there.
+            wait_until(lambda: self.has_ended(process.pid), 20, "the end of nut's programs")
+
+    @staticmethod
+    def has_ended(group):
+        try:
+            os.killpg(group, 0)
+            return False
+        except ProcessLookupError:
+            return True
 
 
 @unittest.skipIf(*lacks(HAS_NUT, "nut-server with root's rights"))
