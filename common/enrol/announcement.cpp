@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <chrono>
 #include <mutex>
 
 #include <avahi-common/error.h>
@@ -21,10 +20,18 @@ std::string letterOf(int number) {
     return number < kLetters ? letter : letterOf(number / kLetters - 1) + letter;
 }
 
+// At random: of two nodes that start at the same moment with the same letter both may give way, as
+// Avahi compares their records one by one. With a next letter they would collide again for ever.
+int numberAfter(int collisions) {
+    constexpr int kMostOfOneLetter = 10;
+    const int number = randomBytes<1>()[0];
+    return collisions < kMostOfOneLetter ? number % kLetters : number;
+}
+
 }  // namespace
 
 // The service of a waiting node. Another node with the same letter is noticed by the protocol
-// (RFC 6762, 8.2): the one that gives way takes the next letter.
+// (RFC 6762, 8.2): whoever gives way tries another letter.
 class Announcement::Service {
   public:
     Service(std::string publicKey, std::uint16_t port)
@@ -46,31 +53,27 @@ class Announcement::Service {
     }
     void followAddresses() {
         stack_.between([&] {
-            if (group_ && (addressesByInterface() != addresses_ || isStuck()))
-                publish(stack_.server());
+            if (group_ && addressesByInterface() != addresses_) publish(stack_.server());
         });
     }
 
   private:
     void hear(AvahiServer* server, AvahiServerState state) {
-        if (state == AVAHI_SERVER_RUNNING) publish(server);
+        if (state == AVAHI_SERVER_RUNNING) publishAny(server);
     }
     void hear(AvahiServer* server, AvahiEntryGroupState state) {
         if (state == AVAHI_ENTRY_GROUP_ESTABLISHED) {
             const std::lock_guard lock(mutex_);
             letter_ = letterOf(number_);
         }
-        if (state == AVAHI_ENTRY_GROUP_COLLISION) publishNext(server);
+        if (state == AVAHI_ENTRY_GROUP_COLLISION) {
+            ++collisions_;
+            publishAny(server);
+        }
     }
-    void publishNext(AvahiServer* server) {
-        ++number_;
+    void publishAny(AvahiServer* server) {
+        number_ = numberAfter(collisions_);
         publish(server);
-    }
-    // Whether the letter was not established in a time in which it should have been.
-    [[nodiscard]] bool isStuck() const {
-        constexpr std::chrono::seconds kMost{5};
-        return avahi_s_entry_group_get_state(group_.get()) != AVAHI_ENTRY_GROUP_ESTABLISHED &&
-               std::chrono::steady_clock::now() > publishedAt_ + kMost;
     }
     void publish(AvahiServer* server);
     // Avahi's error, as a number.
@@ -80,10 +83,9 @@ class Announcement::Service {
     std::uint16_t port_;
     mutable std::mutex mutex_;
     std::string letter_;  // established; the rest is of the stack's thread
-    // Of the letter that is tried. Nodes that start together begin at different ones: few contend.
-    int number_ = randomBytes<1>()[0] % kLetters;
+    int collisions_ = 0;
+    int number_ = 0;  // of the letter that is tried
     std::vector<OwnAddress> addresses_;
-    std::chrono::steady_clock::time_point publishedAt_;
     EntryGroup group_;
     MdnsStack stack_;
 };
@@ -99,7 +101,6 @@ void Announcement::Service::publish(AvahiServer* server) {
                 static_cast<Service*>(self)->hear(of, state);
             },
             this));
-    publishedAt_ = std::chrono::steady_clock::now();
     addresses_ = addressesByInterface();
     int error = group_ ? add(server) : avahi_server_errno(server);
     if (error == AVAHI_OK) error = avahi_s_entry_group_commit(group_.get());

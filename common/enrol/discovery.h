@@ -32,8 +32,7 @@ class Announcement {
 
     // A letter that no other node has; empty while that is being found out.
     [[nodiscard]] std::string letter() const;
-    // Announces the addresses anew where they have changed, as by DHCP, or where no letter was
-    // found in five seconds. To be called every second.
+    // Announces the addresses anew where they have changed, as by DHCP. To be called every second.
     void followAddresses();
 
   private:

@@ -136,6 +136,19 @@ TEST_F(DoorTest, threeNodesHaveThreeLettersAndAreAssigned) {
     }
 }
 
+// Of a dozen that begin at one of 26 letters, some begin at the same one.
+TEST_F(DoorTest, nodesThatStartTogetherHaveDifferentLetters) {
+    constexpr std::size_t kDoors = 12;
+    std::vector<std::unique_ptr<ServedDoor>> doors;
+    while (doors.size() < kDoors) doors.push_back(std::make_unique<ServedDoor>());
+    std::set<std::string> letters;
+    for (const auto& door : doors) {
+        ASSERT_TRUE(comesTrue([&] { return !door->sign().letter.empty(); }));
+        letters.insert(door->sign().letter);
+    }
+    EXPECT_EQ(letters.size(), kDoors);
+}
+
 TEST_F(DoorTest, aWrongCodeAndAWrongNodeGetNothing) {
     const Discovery discovery;
     ServedDoor door;
