@@ -513,14 +513,21 @@ void Commands::offer(std::uint64_t id, int aside, const ask::DrawingOutcome& out
     master_->give(order);
 }
 
-// One at a time, beside the frames; said() tells how it ended.
+Answer Commands::awaitErrand(bool isBegun,
+                             const Holder& holder,
+                             Visitor* visitor,
+                             const Command& command,
+                             const std::string& what) {
+    if (!isBegun) return refused("something else is under way; say it again");
+    waiting_[command.id()] = {visitor, holder.name, what};
+    return {Outcome::Waiting, ""};
+}
+
 Answer Commands::useKept(const Holder& holder, Visitor* visitor, const Command& command) {
     const std::string& name = command.use_calibration();
     if (!isVersion(name)) return refused("there is no such calibration");
-    if (!errands_.use(name, command.id()))
-        return refused("something else is under way; say it again");
-    waiting_[command.id()] = {visitor, holder.name, "calibration " + name};
-    return {Outcome::Waiting, ""};
+    return awaitErrand(
+        errands_.use(name, command.id()), holder, visitor, command, "calibration " + name);
 }
 
 Answer Commands::assignNode(const Holder& holder, Visitor* visitor, const Command& command) {
@@ -530,26 +537,24 @@ Answer Commands::assignNode(const Holder& holder, Visitor* visitor, const Comman
         std::ranges::find(state_.rig.channels, wanted.channel(), &config::Channel::name);
     if (node == state_.waiting.end()) return refused("no node of this letter waits any more");
     if (channel == state_.rig.channels.end()) return refused("there is no such channel");
-    if (!errands_.assign({.rigFile = state_.rigFile,
-                          .keyFolder = state_.keyFolder,
-                          .node = *node,
-                          .channel = channel->name,
-                          .code = wanted.code(),
-                          .built = state_.built},
-                         command.id()))
-        return refused("something else is under way; say it again");
-    waiting_[command.id()] = {
-        visitor, holder.name, "node " + node->letter + " gets the channel " + channel->name};
-    return {Outcome::Waiting, ""};
+    const Assignment assignment{.rigFile = state_.rigFile,
+                                .keyFolder = state_.keyFolder,
+                                .node = *node,
+                                .channel = channel->name,
+                                .code = wanted.code(),
+                                .built = state_.built};
+    return awaitErrand(errands_.assign(assignment, command.id()),
+                       holder,
+                       visitor,
+                       command,
+                       "node " + node->letter + " gets the channel " + channel->name);
 }
 
 Answer Commands::changeRelease(const Holder& holder, Visitor* visitor, const Command& command) {
     const std::string& word = command.release();
     if (!isReleaseWord(word)) return refused("releases know \"go\" and \"back\" only");
-    if (!errands_.change(word, command.id()))
-        return refused("something else is under way; say it again");
-    waiting_[command.id()] = {visitor, holder.name, "release: " + word};
-    return {Outcome::Waiting, ""};
+    return awaitErrand(
+        errands_.change(word, command.id()), holder, visitor, command, "release: " + word);
 }
 
 }  // namespace aquarama::console

@@ -97,6 +97,13 @@ class Commands {
     [[nodiscard]] ask::Answer showScan(const Holder& holder,
                                        Visitor* visitor,
                                        const Command& command);
+    // The answer to a command that an errand carries out, one at a time; said() tells how it ended.
+    // `what`: for the list of events.
+    [[nodiscard]] ask::Answer awaitErrand(bool isBegun,
+                                          const Holder& holder,
+                                          Visitor* visitor,
+                                          const Command& command,
+                                          const std::string& what);
     [[nodiscard]] ask::Answer useKept(const Holder& holder,
                                       Visitor* visitor,
                                       const Command& command);

@@ -115,8 +115,10 @@ bool Agent::isWhole(const ReleaseId& release) {
 // An order is of this moment: what was not done for the one before is dropped.
 void Agent::obey(const v1::MachineOrder& message) {
     const MachineOrder order = orderIn(message);
-    if (order.epoch != follower_.epoch()) problem_.clear();
-    if (order.epoch != follower_.epoch()) failed_ = {};
+    if (order.epoch != follower_.epoch()) {
+        problem_.clear();
+        failed_ = {};
+    }
     if (order.run && order.run != follower_.booted()) static_cast<void>(isWhole(order.run));
     const FollowerDuties duties =
         follower_.obey(order, held(), message.answers_s(), message.lease_s());

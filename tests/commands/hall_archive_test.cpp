@@ -14,12 +14,14 @@
 #include "commands/hall_files.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
+#include "tests/support/refusal.h"
 
 namespace aquarama {
 namespace {
 
 namespace fs = std::filesystem;
 using formats::ArchiveFile;
+using test::refusalOf;
 using testing::HasSubstr;
 using Bytes = std::vector<std::byte>;
 
@@ -32,15 +34,6 @@ Bytes bytesOf(const std::string& text) {
 
 std::string words() {
     return "a fish in a hall";
-}
-
-std::string refusalOf(const std::function<void()>& work) {
-    try {
-        work();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "";
 }
 
 std::string refusalOf(const Bytes& file) {

@@ -14,11 +14,13 @@
 #include "common/base/files.h"
 #include "common/base/log.h"
 #include "releases/signing.h"
+#include "tests/support/refusal.h"
 
 namespace aquarama::releases {
 namespace {
 
 namespace fs = std::filesystem;
+using test::refusalOf;
 using testing::HasSubstr;
 
 void write(const fs::path& file, const std::string& text) {
@@ -28,15 +30,6 @@ void write(const fs::path& file, const std::string& text) {
 std::string textOf(const fs::path& file) {
     const auto bytes = readWhole(file, kMostListBytes);
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-std::string refusalOf(const std::function<void()>& work) {
-    try {
-        work();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "";
 }
 
 class SignedRelease : public testing::Test {

@@ -25,12 +25,14 @@
 #include "common/base/log.h"
 #include "common/wall/scan_pattern.h"
 #include "tests/support/edited_text.h"
+#include "tests/support/refusal.h"
 
 namespace aquarama::scan {
 namespace {
 
 namespace fs = std::filesystem;
 using config::ScanPattern;
+using test::refusalOf;
 using testing::HasSubstr;
 
 class Folder {
@@ -44,15 +46,6 @@ class Folder {
   private:
     fs::path path_ = fs::temp_directory_path() / ("aquarama-capture-" + std::to_string(getpid()));
 };
-
-std::string problemOf(const std::function<void()>& work) {
-    try {
-        work();
-    } catch (const Error& problem) {
-        return problem.what();
-    }
-    return "";
-}
 
 // Shows by remembering; forgets a channel where it is told to.
 class RememberedWall final : public PatternWall {
@@ -138,7 +131,7 @@ TEST(Capture, aChannelThatGoesAndComesCostsAPictureAndOneThatStaysAwayTheScan) {
     wall.losses = 2;
     EXPECT_NO_THROW(capture(desk(), wall, camera, shortSequence(), folder.path()));
     wall.losses = 100;
-    EXPECT_THAT(problemOf([&] { capture(desk(), wall, camera, shortSequence(), folder.path()); }),
+    EXPECT_THAT(refusalOf([&] { capture(desk(), wall, camera, shortSequence(), folder.path()); }),
                 HasSubstr("not shown by left"));
 }
 
@@ -147,7 +140,7 @@ TEST(Capture, namesWhatIsWrongWithTheCamera) {
     RememberedWall wall;
     FormulaCamera camera(wall);
     const auto problem = [&] {
-        return problemOf([&] { capture(desk(), wall, camera, shortSequence(), folder.path()); });
+        return refusalOf([&] { capture(desk(), wall, camera, shortSequence(), folder.path()); });
     };
     camera.clipsAt = 1e-4;
     EXPECT_THAT(problem(), HasSubstr("white is clipped at 0.0010 s"));
@@ -160,7 +153,7 @@ TEST(Capture, namesWhatIsWrongWithTheCamera) {
     camera.isStill = true;
     std::vector<ScanPattern> twice = shortSequence();
     twice.push_back(twice.back());
-    EXPECT_THAT(problemOf([&] { capture(desk(), wall, camera, twice, folder.path()); }),
+    EXPECT_THAT(refusalOf([&] { capture(desk(), wall, camera, twice, folder.path()); }),
                 HasSubstr("the same picture again"));
 }
 
@@ -180,11 +173,11 @@ TEST(Camera, takesAPictureThatBeganAfterItWasAsked) {
 }
 
 TEST(Camera, thatIsNoneIsNamedAndOneThatEndsToo) {
-    EXPECT_THAT(problemOf([] { (void)openCamera("/dev/video99"); }), HasSubstr("/dev/video99"));
-    EXPECT_THAT(problemOf([] { (void)openCamera("/dev/null"); }), HasSubstr("/dev/null"));
-    EXPECT_THAT(problemOf([] { (void)openCamera("none.mp4"); }), HasSubstr("none.mp4"));
+    EXPECT_THAT(refusalOf([] { (void)openCamera("/dev/video99"); }), HasSubstr("/dev/video99"));
+    EXPECT_THAT(refusalOf([] { (void)openCamera("/dev/null"); }), HasSubstr("/dev/null"));
+    EXPECT_THAT(refusalOf([] { (void)openCamera("none.mp4"); }), HasSubstr("none.mp4"));
     const auto camera = openCamera("lavfi:color=black:size=64x32:rate=20:duration=0.5");
-    EXPECT_THAT(problemOf([&] {
+    EXPECT_THAT(refusalOf([&] {
                     for (int i = 0; i < 20; ++i) (void)camera->take(1);
                 }),
                 HasSubstr("has ended"));
@@ -203,10 +196,10 @@ TEST(Camera, aDeviceThatFailsIsToldWithWhatToDo) {
                     testing::AllOf(testing::StartsWith("/dev/video0: "), HasSubstr(todo)));
     EXPECT_THAT(deviceProblem("rtsp://10.0.0.9/", ECONNREFUSED),
                 HasSubstr("does not answer; check"));
-    EXPECT_THAT(problemOf([] { (void)openCamera("/dev/video99"); }),
+    EXPECT_THAT(refusalOf([] { (void)openCamera("/dev/video99"); }),
                 HasSubstr("is not there; plug"));
-    EXPECT_THAT(problemOf([] { (void)openCamera("/dev/null"); }), HasSubstr("gives no pictures"));
-    EXPECT_THAT(problemOf([] { (void)openCamera("none.mp4"); }), HasSubstr("is not there; check"));
+    EXPECT_THAT(refusalOf([] { (void)openCamera("/dev/null"); }), HasSubstr("gives no pictures"));
+    EXPECT_THAT(refusalOf([] { (void)openCamera("none.mp4"); }), HasSubstr("is not there; check"));
 }
 
 // As gphoto2 2.5 says them: the cause first, then advice for debugging.
@@ -244,7 +237,7 @@ TEST(Camera, gphotoIsAskedInEnglishAndItsCauseGoesIntoTheError) {
                               "\"claim$LC_ALL$LC_MESSAGES$LANGUAGE\" >&2\nexit 1\n";
     fs::permissions(program, fs::perms::owner_all);
     EXPECT_THAT(
-        problemOf([] { (void)openCamera("gphoto2:"); }),
+        refusalOf([] { (void)openCamera("gphoto2:"); }),
         testing::StartsWith("gphoto2 cannot use the camera (*** Error (-53: claimC) ***); end "
                             "other programs that use it"));
     unsetenv("LC_MESSAGES");
@@ -267,7 +260,7 @@ TEST(Camera, gphoto2TakesAPictureWithTheNearestExposure) {
     const Folder folder;
     const std::string path = getenv("PATH");
     setenv("PATH", folder.path().c_str(), 1);
-    EXPECT_THAT(problemOf([] { (void)openCamera("gphoto2:"); }), HasSubstr("is not installed"));
+    EXPECT_THAT(refusalOf([] { (void)openCamera("gphoto2:"); }), HasSubstr("is not installed"));
     setenv("PATH", (folder.path() + ":" + path).c_str(), 1);
     const std::string program = folder.path("gphoto2");
     std::ofstream(program) << kGphoto;
@@ -275,7 +268,7 @@ TEST(Camera, gphoto2TakesAPictureWithTheNearestExposure) {
     const auto camera = openCamera("gphoto2:usb:001,004");
     EXPECT_EQ(camera->exposures().shortest, 1.0 / 4000);
     EXPECT_EQ(camera->exposures().longest, 30);
-    EXPECT_THAT(problemOf([&] { (void)camera->take(0.02); }), HasSubstr("Could not capture"));
+    EXPECT_THAT(refusalOf([&] { (void)camera->take(0.02); }), HasSubstr("Could not capture"));
     writePng(program + ".png", {{1, 1}, 16, {1, 2, 300}});
     EXPECT_EQ(camera->take(0.02).rgb, (std::vector<std::uint16_t>{1, 2, 300}));
     std::ifstream said(program + ".said");
