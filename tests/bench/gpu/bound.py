@@ -143,7 +143,7 @@ class Paper:
     def stages(self):
         bounds = [self.both(wall, card) for wall, _, _, card in AIMS]
         names = sorted({stage for least, _ in bounds for stage in least},
-                       key=lambda stage: -max(quads.get(stage, (0,))[0] for _, quads in bounds))
+                       key=lambda stage: (-max(quads.get(stage, (0,))[0] for _, quads in bounds), stage))
         yield "| stage | " + " | ".join(name for _, name, _, _ in AIMS) + " | bounded by |"
         yield "|---" * (2 + len(AIMS)) + "|"
         for stage in names:
