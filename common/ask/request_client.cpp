@@ -73,7 +73,8 @@ v1::OrderReply RequestClient::carryOut(v1::Order order,
         const v1::OrderReply reply = give(order);
         if (reply.outcome() == v1::OrderReply::DONE) return reply;
         if (reply.outcome() != v1::OrderReply::WAITING) throw Error("refused: " + reply.reason());
-        if (std::exchange(waitingFor, reply.reason()) != reply.reason()) onWait(reply.reason());
+        const bool isNew = std::exchange(waitingFor, reply.reason()) != reply.reason();
+        if (isNew && !waitingFor.empty()) onWait(waitingFor);
         std::this_thread::sleep_for(kBetween);
     }
 }

@@ -225,7 +225,7 @@ void Conductor::changeShow(net::Moment now) {
     // Nobody draws, so nobody has to see black.
     if (control.phase() == Phase::Fading && !presentation_.barrier().hasMembers())
         control.blackShown();
-    keeper_.keep(control.kept());
+    keeper_.keep(control.kept(), now);
 }
 
 void Conductor::startSimulation(std::uint32_t fish) {

@@ -235,7 +235,7 @@ std::optional<NextWorld> Looks::switchToNext() {
 }
 
 ShowKeeper::ShowKeeper(std::filesystem::path path, v1::WantedShow kept)
-    : path_{std::move(path)}, onDisk_{std::move(kept)} {}
+    : path_{std::move(path)}, newest_{kept}, begun_{kept}, tried_{std::move(kept)} {}
 
 ShowKeeper::~ShowKeeper() {
     if (writing_.valid()) writing_.wait();
@@ -243,16 +243,21 @@ ShowKeeper::~ShowKeeper() {
 
 void ShowKeeper::finish(const v1::WantedShow& show) {
     if (writing_.valid()) writing_.wait();
-    keep(show);
+    keep(show, net::monotonicNow());
     if (writing_.valid()) writing_.wait();
 }
 
-void ShowKeeper::keep(const v1::WantedShow& show) {
-    if (isReady(writing_))
+void ShowKeeper::keep(const v1::WantedShow& show, net::Moment now) {
+    if (path_.empty()) return;
+    newest_ = show;
+    if (isReady(writing_)) {
         if (const std::string problem = writing_.get(); !problem.empty())
             warnOnceOf(path_, problem, "what was set is lost with the next start");
-    if (path_.empty() || writing_.valid() || wire::areSame(show, onDisk_)) return;
-    onDisk_ = show;
+        tried_ = begun_;
+    }
+    if (writing_.valid() || wire::areSame(show, begun_)) return;
+    begun_ = show;
+    begunAt_ = now;
     writing_ = std::async(std::launch::async, [path = path_, show]() -> std::string {
         try {
             wire::keepShow(path, show);
@@ -261,6 +266,16 @@ void ShowKeeper::keep(const v1::WantedShow& show) {
             return problem.what();
         }
     });
+}
+
+std::optional<net::Moment> ShowKeeper::writesSince(const v1::WantedShow& change) const {
+    const auto has = [&](const v1::WantedShow& show) {
+        v1::WantedShow changed = show;
+        wire::apply(changed, change);
+        return wire::areSame(changed, show);
+    };
+    if (!has(newest_) || has(tried_)) return std::nullopt;
+    return begunAt_;
 }
 
 }  // namespace aquarama::conductor

@@ -140,13 +140,18 @@ class ShowKeeper {
     ShowKeeper& operator=(const ShowKeeper&) = delete;
 
     // Begins to write it where it has changed. What cannot be written is one warning.
-    void keep(const v1::WantedShow& show);
+    void keep(const v1::WantedShow& show, net::Moment now);
+    // Since when these values are being written; nothing where the disk has them, does not take
+    // them, or others were set meanwhile.
+    [[nodiscard]] std::optional<net::Moment> writesSince(const v1::WantedShow& change) const;
     // The last time: returns when it is written.
     void finish(const v1::WantedShow& show);
 
   private:
     std::filesystem::path path_;
-    v1::WantedShow onDisk_;
+    v1::WantedShow newest_;         // as keep() had it last
+    v1::WantedShow begun_, tried_;  // goes to the disk; is there, or could not be written
+    net::Moment begunAt_{};
     std::future<std::string> writing_;  // why it could not be written; empty: it was
 };
 

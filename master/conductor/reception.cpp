@@ -262,14 +262,28 @@ void Conductor::giveChunk(const net::PeerId& peer, const v1::BlobRequest& reques
 void Conductor::obey(const net::FromPeer& from, const v1::Order& order, net::Moment now) {
     const std::string user = from.user.empty() ? "somebody here" : from.user;
     v1::Envelope message;
-    *message.mutable_order_reply() =
-        order.has_change_master() ? changeMaster(user, order)
-                                  : orders_.obey(user, order, presentation_.unpublished(), now);
+    v1::OrderReply& reply = *message.mutable_order_reply();
+    reply = order.has_change_master() ? changeMaster(user, order)
+                                      : orders_.obey(user, order, presentation_.unpublished(), now);
+    if (order.has_show() && reply.outcome() == v1::OrderReply::DONE)
+        awaitDisk(order.show(), reply, now);
     if (simulationThread_ && !isLockstep())
         simulationThread_->freeze(orders_.control().wanted().freeze());
     for (const world::ReleaseHunter& called : orders_.hunters().take())
         bring(called, "a hunter does not come");
     sender_.say(from.peer, std::move(message));
+}
+
+// What is done outlives a power cut. A disk that takes longer is not waited for: the wall shows it
+// already.
+void Conductor::awaitDisk(const v1::WantedShow& change, v1::OrderReply& reply, net::Moment now) {
+    constexpr net::Duration kLongest = std::chrono::seconds(2);
+    constexpr net::Duration kWorthSaying = std::chrono::milliseconds(500);
+    keeper_.keep(orders_.control().kept(), now);
+    const auto since = keeper_.writesSince(change);
+    if (!since || now - *since >= kLongest) return;
+    reply.set_outcome(v1::OrderReply::WAITING);
+    if (now - *since >= kWorthSaying) reply.set_reason("it is being written to the disk");
 }
 
 // Whoever asks goes on asking, until the other machine says that it is done.

@@ -272,9 +272,35 @@ class Keeping : public testing::Test {
 
 TEST_F(Keeping, theLastOfManyChangesIsOnTheDisk) {
     ShowKeeper keeper(path, {});
-    for (int change = 0; change < 9; ++change) keeper.keep(black(change % 2 == 0));
+    for (int change = 0; change < 9; ++change) keeper.keep(black(change % 2 == 0), {});
     keeper.finish(black(false));
     EXPECT_TRUE(wire::areSame(wire::readKeptShow(path), black(false)));
+}
+
+TEST_F(Keeping, itIsToldUntilWhenValuesAreBeingWritten) {
+    const net::Moment begun{std::chrono::seconds(9)};
+    ShowKeeper keeper(path, black(false));
+    EXPECT_FALSE(keeper.writesSince(black(false))) << "there already";
+    keeper.keep(black(true), begun);
+    EXPECT_EQ(keeper.writesSince(black(true)), begun);
+    EXPECT_FALSE(keeper.writesSince(black(false))) << "set otherwise meanwhile";
+    v1::WantedShow dim = black(true);
+    dim.set_brightness(0.5);
+    keeper.keep(dim, begun);
+    EXPECT_TRUE(keeper.writesSince(dim)) << "comes after what is being written";
+    keeper.finish(dim);
+    keeper.keep(dim, begun);
+    EXPECT_FALSE(keeper.writesSince(dim));
+    EXPECT_TRUE(wire::areSame(wire::readKeptShow(path), dim));
+}
+
+TEST_F(Keeping, aDiskThatTakesNothingIsNotWaitedFor) {
+    std::ofstream(folder / "file") << "in the place of a folder";
+    ShowKeeper keeper(folder / "file" / "desk.txtpb", {});
+    keeper.keep(black(true), {});
+    keeper.finish(black(true));
+    keeper.keep(black(true), {});
+    EXPECT_FALSE(keeper.writesSince(black(true)));
 }
 
 TEST_F(Keeping, nothingIsWrittenWhereNothingChanges) {

@@ -196,6 +196,19 @@ TEST(Show, aNodeThatComesWhileASceneChangesShowsTheNewOne) {
     }));
 }
 
+TEST(Show, whatIsDoneIsOnTheDisk) {
+    const std::filesystem::path folder = test::freshDirectory();
+    ConductorOptions options;
+    options.keptAt = folder / "desk.txtpb";
+    const test::StageMaster master(options);
+    for (int change = 0; change < 20; ++change) {
+        const bool isBlack = change % 2 == 0;
+        EXPECT_EQ(setting(master, [&](v1::WantedShow& show) { show.set_black(isBlack); }), "");
+        EXPECT_EQ(wire::readKeptShow(options.keptAt).black(), isBlack) << change;
+    }
+    std::filesystem::remove_all(folder);
+}
+
 TEST(Show, whatWasSetIsShownByAMasterThatIsStartedAgain) {
     const std::filesystem::path folder = test::freshDirectory();
     ConductorOptions options;
