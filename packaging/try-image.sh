@@ -25,11 +25,12 @@ python3 tests/packaging/boot_loader.py
 # A hall of three small windows side by side, and what an emulated machine needs: more time.
 make_hall() {
     local hall=$work/hall channel x=0
-    mkdir -p "$hall"/etc/aquarama/{rigs,nodes} "$hall"/etc/systemd/system
+    local units=$hall/etc/systemd/system
+    mkdir -p "$hall"/etc/aquarama/{rigs,nodes,network} "$units"/{aquarama,multi-user}.target.wants
     cat >"$hall/etc/aquarama/rigs/hall.txtpb" <<'RIG'
 name: "hall"
 panorama { width_px: 480 height_px: 120 }
-network { control: "tcp://127.0.0.1:7400" state: "tcp://127.0.0.1:7401" }
+network { control: "tcp://192.168.7.1:7400" state: "tcp://192.168.7.1:7401" }
 timing { refresh_hz: 60 present_deadline_s: 60 membership_s: 120 }
 scene: "/usr/share/aquarama/config/scenes/empty_sea.txtpb"
 RIG
@@ -44,14 +45,51 @@ channels {
   display { mode: WINDOW window_x_px: $x window_y_px: 0 }
 }
 RIG
-        echo "NODE=$channel --master tcp://127.0.0.1:7400" >"$hall/etc/aquarama/nodes/$channel.conf"
+        echo "NODE=--key /etc/aquarama/keys/hall/$channel.key" >"$hall/etc/aquarama/nodes/$channel.conf"
         x=$((x + 160))
     done
     local unit
     for unit in aquarama-master.service aquarama-node@.service; do
-        mkdir -p "$hall/etc/systemd/system/$unit.d"
-        printf '[Service]\nWatchdogSec=10min\n' >"$hall/etc/systemd/system/$unit.d/emulated.conf"
+        mkdir -p "$units/$unit.d"
+        printf '[Service]\nWatchdogSec=10min\n' >"$units/$unit.d/emulated.conf"
     done
+    cat >"$hall/etc/aquarama/network/10-show.network" <<'NETWORK'
+[Match]
+Type=ether
+
+[Network]
+Address=192.168.7.1/24
+ConfigureWithoutCarrier=yes
+DHCPServer=yes
+
+[DHCPServer]
+PoolOffset=100
+EmitDNS=no
+EmitRouter=no
+NETWORK
+    cat >"$units/keys.service" <<'UNIT'
+[Unit]
+After=aquarama-data.service
+Before=aquarama-master.service aquarama-channels.service
+ConditionPathExists=!/etc/aquarama/keys/hall
+
+[Service]
+Type=oneshot
+ExecStart=/usr/bin/aquarama-hall keys new hall.txtpb
+UNIT
+    ln -s ../keys.service "$units/aquarama.target.wants"
+    # A shell of root at the second serial line.
+    cat >"$units/shell.service" <<'UNIT'
+[Service]
+ExecStart=/bin/bash --norc
+Environment=HOME=/root TERM=dumb
+StandardInput=tty
+StandardOutput=tty
+StandardError=tty
+TTYPath=/dev/ttyS1
+Restart=always
+UNIT
+    ln -s ../shell.service "$units/multi-user.target.wants"
     echo 'MASTER_ARGUMENTS="--pattern grid --quality low"' >"$hall/etc/aquarama/hall.conf"
     printf 'FRAMES=20\nSECONDS_TO_SHOW=1500\n' >"$hall/etc/aquarama/release.conf"
 }
@@ -62,7 +100,7 @@ power_on() {
     for drive in "$@"; do drives+=(-drive "file=$drive,format=raw,if=virtio"); done
     rm -f "$work/screen.ppm" "$work/serial.log"
     cp /usr/share/OVMF/OVMF_VARS.fd "$work/vars.fd"
-    qemu-system-x86_64 -accel tcg,thread=multi -cpu max -smp 2 -m 2500 -display none -vga std -nic none \
+    qemu-system-x86_64 -accel tcg,thread=multi -cpu max -smp 2 -m 2500 -display none -vga std -nic user,restrict=on \
         -drive "if=pflash,format=raw,unit=0,readonly=on,file=$firmware" \
         -drive "if=pflash,format=raw,unit=1,file=$work/vars.fd" "${drives[@]}" \
         -serial "file:$work/serial.log" -monitor "unix:$work/monitor,server,nowait" &
@@ -112,6 +150,9 @@ keys() {
     for ((i = 0; i < ${#1}; ++i)); do tell monitor "sendkey ${1:i:1}"; done
     tell monitor "sendkey ret"
 }
+
+# Two machines and a cable: one shows the hall, the other waits for its channel.
+python3 tests/packaging/two_machines.py "$image" build/image/hall build/image
 
 # From the stick to a disk: the entry "install", a name that is not there, then the disk's own.
 printf 'timeout 0\ndefault aquarama-install.conf\n' >"$work/loader.conf"

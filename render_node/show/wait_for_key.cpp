@@ -58,9 +58,9 @@ bool waitForKey(const std::filesystem::path& keyFile, bool isHeadless) {
             return true;
         }
         const enrol::NodeSign sign = door.sign();
-        service.status("waits for a channel as " + sign.letter);
-        service.alive(0);
         if (board.show(sign)) return false;
+        service.status("waits for a channel" + (sign.letter.empty() ? "" : " as " + sign.letter));
+        service.alive(0);
     }
     service.stopping();
     return false;

@@ -69,6 +69,14 @@ class Installer(unittest.TestCase):
         self.assertEqual(machine.called(), "wipefs -qaf /dev/sdb\n")
         self.assertIn("it could not be installed on sdb", said)
 
+    def test_takes_no_other_word_behind_the_disk_than_node(self):
+        machine = Machine(self.folder)
+        said = machine.install("sdb nod\n")
+        self.assertIn('"nod" says nothing; type sdb or sdb node', said.stdout)
+        self.assertEqual(machine.called(), "")
+        self.assertIn("it could not be installed on sdb", machine.install("sdb node\n").stdout)
+        self.assertEqual(machine.called(), "wipefs -qaf /dev/sdb\n")
+
     def test_ends_where_it_does_not_know_its_own_stick(self):
         machine = Machine(self.folder, stick="")
         ended = machine.install("sdb\n")
@@ -101,6 +109,7 @@ class Entry(unittest.TestCase):
         for mode in ("install", "rescue"):
             self.assertIn(f"aquarama.mode={mode}", self.entry(mode))
             self.assertNotIn("panic=", self.entry(mode))
+        self.assertEqual(self.entry("node").replace("node", "show"), self.entry("show"))
 
 
 class Frames(unittest.TestCase):
@@ -124,6 +133,10 @@ class Frames(unittest.TestCase):
         self.assertEqual(self.frames(left="frame 700", right="waits for the master"), "0\n")
         self.assertEqual(self.frames(left="frame 700", right=""), "0\n")
         self.assertEqual(self.frames(), "")
+
+    def test_are_none_of_a_node_that_waits_for_its_channel(self):
+        self.assertEqual(self.frames(waiting="waits for a channel as Q"), "")
+        self.assertEqual(self.frames(left="frame 700", waiting="waits for a channel"), "700\n")
 
 
 class Signature(unittest.TestCase):

@@ -1,0 +1,119 @@
+"""Machines that QEMU emulates, with UEFI and without KVM, and what their screens show."""
+
+import shutil
+import socket
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+FIRMWARE = Path("/usr/share/OVMF/OVMF_CODE.fd")
+sys.path.insert(0, str(ROOT / "packaging"))
+
+from check_screen import MOST_SHARE, read_ppm, share_apart  # noqa: E402
+from check_pictures import read_png  # noqa: E402
+
+
+def called(*command, **more):
+    return subprocess.run([*map(str, command)], check=True, capture_output=True, text=True, **more).stdout
+
+
+def wait_until(condition, seconds, what):
+    """What the condition says, once it says something; a machine that has ended ends the waiting."""
+    until = time.monotonic() + seconds
+    while not (said := condition()):
+        if time.monotonic() > until:
+            raise AssertionError(f"not after {seconds} s: {what}")
+        time.sleep(2)
+    return said
+
+
+class Machine:
+    """One of them, with a disk. `cable`: a file name for the wire between two; the first on it listens there."""
+
+    def __init__(self, folder, name, disk, cable):
+        self.folder, self.name, self.disk, self.cable = folder / name, name, disk, cable
+        self.folder.mkdir()
+        self.process = None
+
+    def system(self):
+        """Where mtools find the system partition."""
+        return f"{self.disk}@@{2048 * 512}"
+
+    def write(self, name, text):
+        (self.folder / "text").write_text(text)
+        called("mcopy", "-o", "-i", self.system(), self.folder / "text", f"::{name}")
+
+    def entries(self):
+        listed = called("mdir", "-b", "-i", self.system(), "::loader/entries")
+        return {line.rsplit("/", 1)[1] for line in listed.split()}
+
+    def power_on(self, listens):
+        variables, serial, monitor, shell = (self.folder / name for name in ("vars", "serial", "monitor", "shell"))
+        shutil.copy("/usr/share/OVMF/OVMF_VARS.fd", variables)
+        drives = (f"if=pflash,format=raw,unit=0,readonly=on,file={FIRMWARE}",
+                  f"if=pflash,format=raw,unit=1,file={variables}", f"file={self.disk},format=raw,if=virtio")
+        end = f"socket,id=wire,{'listen' if listens else 'connect'}=127.0.0.1:{self.cable}"
+        number = sum(self.name.encode()) % 256
+        self.process = subprocess.Popen(
+            ["qemu-system-x86_64", "-accel", "tcg,thread=multi", "-cpu", "max", "-smp", "2", "-m", "2500", "-display",
+             "none", "-vga", "std", "-netdev", end, "-device", f"virtio-net,netdev=wire,mac=52:54:00:00:00:{number:02x}",
+             "-serial", f"file:{serial}", "-serial", f"unix:{shell},server,nowait",
+             "-monitor", f"unix:{monitor},server,nowait",
+             *(word for drive in drives for word in ("-drive", drive))])
+        self.began = time.monotonic()
+
+    def cut_power(self):
+        if self.process:
+            self.process.kill()
+            self.process.wait()
+        self.process = None
+
+    def since_power(self):
+        return round(time.monotonic() - self.began)
+
+    def screen(self):
+        """What it shows; nothing where it cannot say so yet."""
+        picture = self.folder / "screen.ppm"
+        assert self.process.poll() is None, f"{self.name} has ended"
+        with socket.socket(socket.AF_UNIX) as monitor:
+            monitor.connect(str(self.folder / "monitor"))
+            monitor.sendall(f"screendump {picture}\n".encode())
+            time.sleep(2)
+        try:
+            return read_ppm(picture)
+        except (OSError, ValueError):
+            return None
+
+    def keep_screen(self, file):
+        self.screen()
+        shutil.copy(self.folder / "screen.ppm", file)
+
+    def shows(self, **channels):
+        """Whether the screen has these pictures: where each begins, from the left."""
+        screen = self.screen()
+        return screen is not None and all(share_apart(screen, picture, left) <= MOST_SHARE
+                                          for picture, left in channels.values())
+
+    def tell(self, command, seconds=120):
+        """What a command of root says there, through the shell at the second serial line; nothing where there is no
+        shell yet."""
+        said = b""
+        with socket.socket(socket.AF_UNIX) as line:
+            line.settimeout(5)
+            line.connect(str(self.folder / "shell"))
+            line.sendall(b"stty -echo -onlcr; PS1=; echo BEG''IN\n" + command.encode() + b"\necho E''ND:$?:\n")
+            until = time.monotonic() + seconds
+            while b"END:" not in said and time.monotonic() < until:
+                try:
+                    said += line.recv(65536)
+                except TimeoutError:
+                    pass
+        if b"END:" not in said:
+            return ""
+        return said.decode(errors="replace").split("BEGIN\n", 1)[-1].split("END:")[0].replace("\r", "")
+
+
+def picture(file):
+    return read_png(file)
