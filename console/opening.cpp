@@ -47,8 +47,10 @@ bool comesOn(const ProjectorFacts& facts) {
 }  // namespace
 
 // Whatever is wrong with what was kept, the console starts.
-Opening::Opening(std::filesystem::path folder, MakeProjector make)
-    : folder_{std::move(folder)}, make_{std::move(make)} {
+Opening::Opening(std::filesystem::path folder,
+                 MakeProjector make,
+                 std::filesystem::path batteryMark)
+    : folder_{std::move(folder)}, make_{std::move(make)}, batteryMark_{std::move(batteryMark)} {
     if (!make_)
         make_ = [](const config::ControlledProjector& one) {
             return std::make_unique<ProjectorWatch>(one);
@@ -152,11 +154,18 @@ config::WantedHours Opening::wantedIn(UnixSeconds now) const {
     return config::wantedAt(*hours_, static_cast<long long>(now));
 }
 
+// What cannot be asked is no battery.
+bool Opening::isOnBattery() const {
+    std::error_code none;
+    return std::filesystem::exists(batteryMark_, none);
+}
+
 // What was brought about last is compared, not what the wall shows: an operator may have set that.
 std::optional<config::WantedHours> Opening::due(UnixSeconds now) const {
     if (!hours_ || heldUntil(now) > 0) return std::nullopt;
     const config::WantedHours wanted = wantedIn(now);
-    return done_ == wanted ? std::nullopt : std::optional(wanted);
+    if (done_ == wanted || (wanted.isOpen && isOnBattery())) return std::nullopt;
+    return wanted;
 }
 
 // Written to the disk at once, so that a restart of the console repeats nothing.
@@ -182,11 +191,12 @@ bool Opening::opensAgainSoon(UnixSeconds now) const {
 
 // Not closed while the schedule is held.
 bool Opening::isClosed(UnixSeconds now) const {
-    return hours_ && heldUntil(now) == 0 && !wantedIn(now).isOpen;
+    return hours_ && heldUntil(now) == 0 && (!wantedIn(now).isOpen || isOnBattery());
 }
 
-// On three minutes before the wall opens, and off once the wall has been made black.
+// On three minutes before the wall opens, and off once the wall has been made black, or on battery.
 bool Opening::isLampWanted(UnixSeconds now) const {
+    if (isOnBattery()) return false;
     const bool isBlack = done_ && !done_->isOpen;
     return !isBlack || wantedIn(now).isOpen || wantedIn(now + kWarmUpSeconds).isOpen;
 }
@@ -230,7 +240,7 @@ void Opening::rest() {
 // Since when the wall should be open, its lamps be on, and its projectors are looked at.
 void Opening::noteOpening(UnixSeconds now) {
     if (watchedSince_ == 0) watchedSince_ = now;
-    const bool isOpen = wantedIn(now).isOpen;
+    const bool isOpen = wantedIn(now).isOpen && !isOnBattery();
     if (!isOpen) openSince_ = 0;
     if (isOpen && openSince_ == 0) openSince_ = now;
     if (isLampWanted(now) && power_ != true) litSince_ = now;
@@ -274,6 +284,7 @@ browser::Hours Opening::hours(UnixSeconds now) const {
     message.set_problem(problem_);
     message.set_present(hours_.has_value());
     message.set_next("stays");
+    message.set_on_battery(isOnBattery());
     if (!hours_) return message;
     *message.mutable_form() = form_;
     const config::WantedHours wanted = wantedIn(now);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/config/hours.h"
+#include "common/machine/machine_power.h"
 #include "console/access.h"
 #include "console/console.pb.h"
 #include "console/projectors/projector.h"
@@ -24,8 +25,11 @@ class Opening {
     using MakeProjector =
         std::function<std::unique_ptr<SwitchedProjector>(const config::ControlledProjector&)>;
     // A file that cannot be read is logged, and there are no hours; hours() says why.
-    // `make`: what switches a projector; tests have pretended ones.
-    explicit Opening(std::filesystem::path folder, MakeProjector make = {});
+    // `make`: what switches a projector; tests have pretended ones. `batteryMark`: a file that is
+    // there while the hall runs on battery: then nothing opens, and projectors are off.
+    explicit Opening(std::filesystem::path folder,
+                     MakeProjector make = {},
+                     std::filesystem::path batteryMark = machine::batteryMark());
 
     // Takes another text and keeps it; empty: no hours any more. Throws Error, as parseHours().
     void setText(const std::string& text);
@@ -59,6 +63,7 @@ class Opening {
 
   private:
     [[nodiscard]] config::WantedHours wantedIn(UnixSeconds now) const;
+    [[nodiscard]] bool isOnBattery() const;
     void watchProjectors();
     [[nodiscard]] bool opensAgainSoon(UnixSeconds now) const;
     [[nodiscard]] bool isLampWanted(UnixSeconds now) const;
@@ -75,6 +80,7 @@ class Opening {
 
     std::filesystem::path folder_;
     MakeProjector make_;
+    std::filesystem::path batteryMark_;
     std::string text_;
     std::string problem_;  // why there are no hours although there is a text
     v1::Hours form_;       // the message of the text, where there are hours

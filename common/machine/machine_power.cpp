@@ -17,6 +17,10 @@ std::filesystem::path powerFolder() {
 }
 
 // For a service without access to the folder, it is read-only.
+std::filesystem::path batteryMark() {
+    return powerFolder() / "on-battery";
+}
+
 bool takesPowerWord(const std::filesystem::path& folder) {
     return std::filesystem::is_directory(folder) && access(folder.c_str(), W_OK | X_OK) == 0;
 }

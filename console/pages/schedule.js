@@ -183,7 +183,8 @@ function standing(link) {
   const next = t(`hours.${hours.next ?? 'stays'}`, {at: hours.nextAt, scene: hours.nextScene ? word(hours.nextScene)
     : t('hours.sceneAsItWas')});
   return html`<section class="panel"><h2>${t('page.schedule')}</h2>
-    <p role="status">${held
+    <p role="status">${hours.onBattery
+      ? html`<strong class="warn">▲ ${t('hours.onBattery')}</strong>` : held
       ? html`<strong class="warn">▲ ${t('hours.held', {time: time(link.wall.heldUntilS)})}</strong>`
       : hours.problem ? html`<strong class="bad">✖ ${t('hours.unreadable')}</strong> ${hours.problem}`
       : hours.present ? html`<strong class=${hours.open ? 'good' : 'quiet'}>${hours.open ? '●'

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render_node/show/built_look.h"
 
+#include <algorithm>
+#include <array>
 #include <cassert>
 #include <chrono>
 #include <future>
 #include <utility>
+
+#include <glm/vec3.hpp>
 
 #include "common/base/log.h"
 #include "render_node/gl/program.h"
@@ -31,8 +35,7 @@ BuiltLook::BuiltLook(gl::Context& context, const std::string& channel, session::
         targets_.emplace_back(GL_RGBA8, size);
     chooseQuality();
     // Some drivers compile shaders on first use.
-    drawEmpty();
-    gl::waitForGpu();
+    requireLight();
     if (motion.valid()) motion_ = motion.get();
 }
 
@@ -70,6 +73,33 @@ void BuiltLook::drawEmpty() {
     if (!admission_.world) frame.show.pattern = wire::Pattern::Grey;
     picture_->drawScene(frame, Overlays{});
     picture_->project(targets_.front().framebuffer(), Encoding::Dithered8, Overlays{});
+}
+
+namespace {
+
+// Whether the projector lights any part of the screen.
+bool lightsAnything(const wall::WarpMap& warp) {
+    constexpr float kSeen = 0.1F;
+    for (std::size_t i = 0; i < warp.pointAndWeight.size(); ++i) {
+        const glm::vec3 blend = warp.blend.empty() ? glm::vec3(1) : warp.blend[i];
+        if (warp.pointAndWeight[i].w * std::max({blend.r, blend.g, blend.b}) > kSeen) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+void BuiltLook::requireLight() {
+    constexpr int kWidthPixels = 64;
+    constexpr std::array<float, 4> kBlack{};
+    glClearNamedFramebufferfv(targets_.front().framebuffer(), GL_COLOR, 0, kBlack.data());
+    drawEmpty();
+    reader_->begin(targets_.front(), kWidthPixels);
+    gl::waitForGpu();
+    const auto drawn = reader_->take();
+    if (drawn && isBlack(*drawn) && lightsAnything(wall_->warp(channel_)))
+        throw Error("the driver draws a black picture (" + renderer_ +
+                    "); install another version of it, or use another card");
 }
 
 double BuiltLook::secondsAFrame(config::QualityTier quality) {

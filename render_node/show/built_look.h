@@ -23,7 +23,8 @@ class BuiltLook {
   public:
     // Builds it on the calling thread and leaves its workspace current there. Without a prescribed
     // quality it measures which tier the node keeps up with. Throws Error: a channel that the rig
-    // does not have or another size than the context's, a driver that cannot draw what is needed.
+    // does not have or another size than the context's, a driver that cannot draw what is needed,
+    // or that draws nothing.
     BuiltLook(gl::Context& context, const std::string& channel, session::Admission admission);
     // May be destroyed on another thread, while no thread has the workspace current.
     ~BuiltLook();
@@ -58,6 +59,9 @@ class BuiltLook {
     // Measured time of a frame without fish at this tier; builds the picture for it.
     [[nodiscard]] double secondsAFrame(config::QualityTier quality);
     void drawEmpty();
+    // Throws Error where what drawEmpty() leaves is black, and the channel lights something. A
+    // driver may accept all and draw nothing; that must not count as a show.
+    void requireLight();
 
     session::Admission admission_;
     std::shared_ptr<school::SchoolMotion> motion_;

@@ -31,6 +31,13 @@ std::size_t bytesOf(glm::ivec2 sizePixels) {
 
 }  // namespace
 
+bool isBlack(const ReducedPicture& picture) {
+    constexpr std::size_t kAlpha = 3, kCodes = 4;
+    for (std::size_t i = 0; i < picture.rgba.size(); ++i)
+        if (i % kCodes != kAlpha && picture.rgba[i] > 1) return false;
+    return true;
+}
+
 PictureReader::~PictureReader() {
     if (fence_ != nullptr) glDeleteSync(fence_);
 }

@@ -29,6 +29,9 @@ struct ReducedPicture {
     std::vector<std::uint8_t> rgba;  // sRGB codes of 8 bits, bottom row first
 };
 
+// Whether nothing in it can be seen: no code is above 1, which the dither of black may be.
+[[nodiscard]] bool isBlack(const ReducedPicture& picture);
+
 // Reads a small copy of a picture from the GPU without waiting: it is started after a frame and
 // taken some frames later. Owns GL objects; use and destroy it with the same workspace current.
 class PictureReader {

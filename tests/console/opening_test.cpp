@@ -194,15 +194,17 @@ struct Noted final : SwitchedProjector {
 class OpeningOfProjectors : public OpeningTest {
   protected:
     Opening openingWith(const std::string& text) {
-        Opening opening(folder_, [this](const config::ControlledProjector&) {
+        const auto make = [this](const config::ControlledProjector&) {
             auto made = std::make_unique<Noted>();
             noted_.push_back(made.get());
             return made;
-        });
+        };
+        Opening opening(folder_, make, battery_);
         noted_.clear();  // those of hours that were kept
         opening.setText(text);
         return opening;
     }
+    const fs::path battery_ = folder_ / "on-battery";
     std::vector<Noted*> noted_;
     const std::string text_ = kText +
                               "projectors { name: \"left\" address: \"10.0.0.1\" }\n"
@@ -294,6 +296,28 @@ TEST_F(OpeningOfProjectors, whileTheScheduleIsHeldNothingIsWantedOfThem) {
     opening.hold(0, kTen + 10);
     opening.switchProjectors(kTen + 10, true);
     EXPECT_EQ(noted_[0]->wanted, "on open rest on open ");
+}
+
+TEST_F(OpeningOfProjectors, onBatteryNothingOpensAndLampsAreOffUntilTheMainsAreBack) {
+    Opening opening = openingWith(text_);
+    noted_[0]->known =
+        noted_[1]->known = {.reach = ProjectorReach::Answers, .power = LampPower::On};
+    opening.done(*opening.due(kTen - 1), kTen - 1);
+    std::ofstream{battery_};
+    EXPECT_FALSE(opening.due(kTen)) << "its opening waits";
+    EXPECT_TRUE(opening.isClosed(kTen));
+    EXPECT_TRUE(opening.hours(kTen).on_battery());
+    opening.switchProjectors(kTen, true);
+    fs::remove(battery_);
+    ASSERT_TRUE(opening.due(kTen + 1));
+    opening.done(*opening.due(kTen + 1), kTen + 1);
+    EXPECT_FALSE(opening.isDayToEnd());
+    opening.switchProjectors(kTen + 1, true);
+    std::ofstream{battery_};
+    EXPECT_FALSE(opening.due(kTen + 2)) << "black is said by whoever watches the battery";
+    opening.switchProjectors(kTen + 2, true);
+    EXPECT_TRUE(opening.due(kTen + 8 * kHour)) << "it closes on battery as well";
+    EXPECT_EQ(noted_[0]->wanted, "off shut on open off shut ");
 }
 
 TEST_F(OpeningOfProjectors, whatIsUnknownIsLeftOutOfTheList) {

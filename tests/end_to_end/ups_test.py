@@ -152,8 +152,11 @@ class Ups(ShowCase):
         self.begin_mains()
         self.mains.say("OB")
         wait_until(self.is_black, 30, "a black wall")
+        on_battery = self.power["this"] / "on-battery"
+        self.assertTrue(on_battery.exists(), "what the console looks at: nothing opens")
         self.mains.say("OL")
         wait_until(lambda: self.is_black() is False, 30, "the world")
+        self.assertFalse(on_battery.exists())
         self.assertFalse(self.mark.exists())
 
     def test_a_short_failure_is_not_seen(self):
@@ -200,6 +203,7 @@ class Ups(ShowCase):
         self.begin_show()
         aquarama("set", self.rig, "black", "on")
         self.assertEqual(self.event("onbatt").returncode, 0)
+        self.assertTrue((self.power["this"] / "on-battery").exists())
         self.assertEqual(self.event("online").returncode, 0)
         self.assertTrue(self.is_black())
 

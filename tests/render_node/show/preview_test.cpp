@@ -62,6 +62,13 @@ ReducedPicture corners(glm::ivec2 size) {
     return picture;
 }
 
+TEST(ReducedPicture, isBlackWhereNoCodeIsAboveTheDither) {
+    ReducedPicture picture{{2, 1}, {0, 1, 0, 255, 1, 0, 1, 255}};
+    EXPECT_TRUE(isBlack(picture));
+    picture.rgba[6] = 2;
+    EXPECT_FALSE(isBlack(picture));
+}
+
 TEST(Preview, aJpegHasThePictureTheRightWayUp) {
     const ReducedPicture before = corners({64, 48});
     const ReducedPicture after = decoded(encodeJpeg(before));
