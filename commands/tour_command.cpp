@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 #include <spdlog/fmt/fmt.h>
 
 #include "commands/commands.h"
@@ -33,6 +34,9 @@ struct TourOptions {
     std::string step;    // that is repeated; empty: all that are to be done
     std::string backup;  // folder; empty: as it was named before
     bool isList = false;
+    bool isJson = false;
+    std::string confirmed;  // the step whose finding is right; empty: none
+    std::string found;      // that finding
 };
 
 // What somebody answers to a step.
@@ -123,6 +127,36 @@ class Tour {
                              counted(tourSteps().size(), "step"),
                              durationOf(secondsInAll())));
         return count == tourSteps().size();
+    }
+
+    // The same for a program. It counts as a look at the first step that is to be done.
+    [[nodiscard]] bool listForProgram(const TourView& view) {
+        nlohmann::json steps = nlohmann::json::array();
+        bool isAhead = false;  // something before is to be done
+        for (const TourStep& step : tourSteps()) {
+            const StepFinding finding = findingOf(step, view);
+            const bool isDone = finding.state == StepState::Done;
+            if (!isAhead) note(step, isDone);
+            isAhead = isAhead || !isDone;
+            steps.push_back({{"name", step.name},
+                             {"state", nameOf(finding.state)},
+                             {"found", finding.what},
+                             {"todo", finding.todo},
+                             {"seconds", record_.steps[step.name].seconds}});
+        }
+        cli::say(nlohmann::json{{"steps", steps}, {"seconds", secondsInAll()}}.dump());
+        return !isAhead;
+    }
+
+    // Somebody in the hall says that a finding is right. Throws Error where the step has found
+    // something else by now, or needs nobody.
+    void confirm(const std::string& name, const std::string& found) {
+        const auto step = std::ranges::find(tourSteps(), name, &TourStep::name);
+        const StepFinding finding = findingOf(*step, look());
+        if (finding.state != StepState::ToConfirm || finding.what != found)
+            throw Error(name + ": has found by now: " + finding.what + "; look again");
+        record_.steps[name].confirmed = found;
+        note(*step, true);
     }
 
     // Goes through all steps that are not done, in their order, until somebody leaves. `view`: the
@@ -216,6 +250,11 @@ class Tour {
 // Exit status 1 where something is to be done.
 int tour(const TourOptions& options) {
     Tour tour(options);
+    if (!options.confirmed.empty()) {
+        tour.confirm(options.confirmed, options.found);
+        return 0;
+    }
+    if (options.isJson) return tour.listForProgram(tour.look()) ? 0 : 1;
     if (options.isList) return tour.list(tour.look()) ? 0 : 1;
     cli::holdSignals();
     if (!options.step.empty()) return tour.repeat(options.step) ? 0 : 1;
@@ -243,6 +282,14 @@ void addTour(CommandLine& line) {
     command.add_option(
         "--backup", options.backup, "folder for a copy of the hall, on a stick; is remembered");
     command.add_flag("--list", options.isList, "print all steps, and end")->excludes(step);
+    command.add_flag("--json", options.isJson, "the same for a program")->excludes(step);
+    CLI::Option* found =
+        command.add_option("--found", options.found, "what the step that is confirmed has found");
+    CLI::Option* confirmed =
+        command.add_option("--confirm", options.confirmed, "the finding of this step is right")
+            ->check(CLI::IsMember(namesOfSteps()))
+            ->needs(found);
+    found->needs(confirmed);
     command.footer(
         "Each step says what it found and what to do. q leaves; the next call goes on at the first "
         "step that is not done.\nThe exit status is 1 while something is to be done.");

@@ -97,6 +97,11 @@ std::string calibrateCommand(const std::string& rigPath) {
 
 }  // namespace
 
+std::string_view nameOf(StepState state) {
+    constexpr std::array<std::string_view, 3> kNames{"done", "confirm", "todo"};
+    return kNames.at(static_cast<std::size_t>(state));
+}
+
 std::string textOf(const config::Rig& rig) {
     const config::Screen& screen = rig.screen;
     switch (screen.shape) {
@@ -142,7 +147,8 @@ StepFinding lookAtMachines(const std::string& rigPath, const MasterAnswer& maste
         fmt::format(
             "{} of {}; absent: {}", all - absent.size(), counted(all, "node"), joined(absent)),
         "start each on its machine: aquarama-node --key NAME.key, or systemctl enable --now "
-        "aquarama-node@NAME; see cables and its log");
+        "aquarama-node@NAME; see cables and its log. A machine that shows a letter gets its "
+        "channel in the console (Nodes), or by aquarama nodes assign");
 }
 
 StepFinding lookAtChannels(const std::string& rigPath,

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,9 @@ namespace aquarama {
 
 // ToConfirm: only somebody in the hall can tell.
 enum class StepState : std::uint8_t { Done, ToConfirm, ToDo };
+
+// As programs are told it: "done", "confirm", "todo".
+[[nodiscard]] std::string_view nameOf(StepState state);
 
 // What a step has found, and what to do about it; `todo` is empty where it is done.
 struct StepFinding {

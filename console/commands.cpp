@@ -44,6 +44,7 @@ std::optional<ConsoleRole> roleFor(const browser::Command& command) {
                                                     {What::kPower, ConsoleRole::Crew},
                                                     {What::kAssign, ConsoleRole::Crew},
                                                     {What::kRelease, ConsoleRole::Crew},
+                                                    {What::kConfirmStep, ConsoleRole::Crew},
                                                     {What::kOrder, ConsoleRole::Operator}};
     const auto role = kRoles.find(command.what_case());
     if (command.order().has_power()) return ConsoleRole::Crew;
@@ -240,6 +241,8 @@ Answer Commands::carryOutAllowed(const Holder& holder, Visitor* visitor, const C
             return assignNode(holder, visitor, command);
         case What::kRelease:
             return changeRelease(holder, visitor, command);
+        case What::kConfirmStep:
+            return confirmStep(holder, visitor, command);
         case What::kPicture:
             return readPicture(holder, visitor, command);
         case What::kOrder:
@@ -555,6 +558,21 @@ Answer Commands::changeRelease(const Holder& holder, Visitor* visitor, const Com
     if (!isReleaseWord(word)) return refused("releases know \"go\" and \"back\" only");
     return awaitErrand(
         errands_.change(word, command.id()), holder, visitor, command, "release: " + word);
+}
+
+// Only what was found: a page shows no other.
+Answer Commands::confirmStep(const Holder& holder, Visitor* visitor, const Command& command) {
+    const browser::ConfirmStep& step = command.confirm_step();
+    const browser::Tour tour = state_.tour.value_or(browser::Tour{});
+    const bool isFound = std::ranges::any_of(tour.steps(), [&](const browser::TourStep& known) {
+        return known.name() == step.name() && known.found() == step.found();
+    });
+    if (!isFound) return refused("the tour has found something else by now: look again");
+    return awaitErrand(errands_.confirm(step, command.id()),
+                       holder,
+                       visitor,
+                       command,
+                       "tour: " + step.name() + " is right");
 }
 
 }  // namespace aquarama::console

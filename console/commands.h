@@ -113,6 +113,9 @@ class Commands {
     [[nodiscard]] ask::Answer changeRelease(const Holder& holder,
                                             Visitor* visitor,
                                             const Command& command);
+    [[nodiscard]] ask::Answer confirmStep(const Holder& holder,
+                                          Visitor* visitor,
+                                          const Command& command);
     [[nodiscard]] ask::Answer readPicture(const Holder& holder,
                                           Visitor* visitor,
                                           const Command& command);

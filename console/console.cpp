@@ -301,6 +301,7 @@ void Console::everySecond() {
         visitors_.note(who, what);
     if (visitors_.isLookedAt("calibrations")) errands_.wantCalibrations(ticks_);
     if (visitors_.isLookedAt("machines")) errands_.wantReleases(ticks_);
+    if (visitors_.isLookedAt("tour")) errands_.wantTour(ticks_);
     if (const auto ended = errands_.hear())
         commands_.said(ended->command,
                        ended->refusal.empty() ? ask::Answer{}

@@ -36,6 +36,24 @@ void Errands::wantReleases(int ticks) {
     asking_ = std::async(std::launch::async, work_.releasesOf, state_.rigFile);
 }
 
+// The doctor takes a while, so the pause begins at the end.
+void Errands::wantTour(int ticks) {
+    constexpr int kTicksBetween = 50;
+    if (touring_.valid()) {
+        touringDue_ = ticks + kTicksBetween;
+    } else if (!state_.tour || ticks >= touringDue_) {
+        touring_ = std::async(std::launch::async, work_.tourOf, state_.rigFile);
+    }
+}
+
+bool Errands::confirm(const browser::ConfirmStep& step, std::uint64_t command) {
+    return begin(
+        [confirm = work_.confirmStep, rig = state_.rigFile, step] {
+            return confirm(rig, step.name(), step.found());
+        },
+        command);
+}
+
 bool Errands::change(const std::string& releaseWord, std::uint64_t command) {
     return begin(
         [change = work_.changeRelease, rig = state_.rigFile, releaseWord] {
@@ -70,8 +88,9 @@ std::optional<Errands::Ended> Errands::hear() {
     }
     if (isReady(reading_)) state_.calibrations = reading_.get();
     if (isReady(asking_)) state_.releases = asking_.get();
+    if (isReady(touring_)) state_.tour = touring_.get();
     if (!isReady(errand_)) return std::nullopt;
-    readingDue_ = askingDue_ = 0;
+    readingDue_ = askingDue_ = touringDue_ = 0;
     return Ended{command_, errand_.get()};
 }
 

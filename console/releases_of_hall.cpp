@@ -36,11 +36,6 @@ void add(browser::Releases& releases, const json& from) {
     machine.set_problem(textIn(from, "problem"));
 }
 
-std::string lastLineOf(const Said& said, const char* otherwise) {
-    const std::vector<std::string> lines = linesOf(said.text);
-    return lines.empty() ? otherwise : lines.back();
-}
-
 }  // namespace
 
 browser::Releases releasesIn(const std::string& text) {

@@ -96,6 +96,11 @@ Said runAquarama(std::vector<std::string> arguments, bool withErrors) {
     return said;
 }
 
+std::string lastLineOf(const Said& said, const char* otherwise) {
+    const std::vector<std::string> lines = linesOf(said.text);
+    return lines.empty() ? otherwise : lines.back();
+}
+
 std::vector<std::string> linesOf(const std::string& text) {
     std::vector<std::string> lines;
     for (std::size_t begin = 0; begin < text.size();) {

@@ -16,6 +16,9 @@ struct Said {
 // Runs it to its end, or ends it after a minute. `withErrors`: the text has its errors, too.
 [[nodiscard]] Said runAquarama(std::vector<std::string> arguments, bool withErrors);
 
+// What it said last, as the reason of a failure; otherwise, where it said nothing.
+[[nodiscard]] std::string lastLineOf(const Said& said, const char* otherwise);
+
 // The lines of a text without their ends; the last may have none.
 [[nodiscard]] std::vector<std::string> linesOf(const std::string& text);
 

@@ -52,6 +52,7 @@ struct State {
     browser::DoctorReport doctor;
     std::optional<browser::Calibrations> calibrations = {};  // as they were last read
     std::optional<browser::Releases> releases = {};          // as the depot last said it
+    std::optional<browser::Tour> tour = {};                  // as it was last found
     std::string code = {};          // the last pairing code that somebody asked for in a page
     std::string doubtOfClock = {};  // empty: it may be right
     std::uint64_t refused = 0;      // requests, since the start

@@ -124,7 +124,6 @@ void Visitors::everySecond() {
         if (visitor->holder.until > 0 && visitor->holder.until < unixNow())
             visitor->outbox->close(kClosedUnpaired);
         if (visitor->ticksToLook <= 0) continue;
-        if (visitor->hasHistory) sendHistory(*visitor, false);
         sendTopics(*visitor);
     }
 }
@@ -132,16 +131,17 @@ void Visitors::everySecond() {
 // A page gets what it shows, and no other page does.
 void Visitors::sendTopics(Visitor& visitor) {
     using Send = void (Visitors::*)(Visitor&);
-    static constexpr std::array<std::pair<const char*, Send>, 9> kTopics{
+    static constexpr std::array<std::pair<const char*, Send>, 10> kTopics{
         {{"log", &Visitors::sendLog},
          {"drawings", &Visitors::sendDrawings},
          {"panorama", &Visitors::sendPanorama},
          {"calibrations", &Visitors::sendCalibrations},
          {"doctor", &Visitors::sendDoctor},
-         {"history", &Visitors::sendWholeHistory},
+         {"history", &Visitors::sendHistory},
          {"hours", &Visitors::sendHours},
          {"people", &Visitors::sendPeople},
-         {"machines", &Visitors::sendMachines}}};
+         {"machines", &Visitors::sendMachines},
+         {"tour", &Visitors::sendTour}}};
     if (!visitor.wants("history")) visitor.hasHistory = false;
     for (const auto& [topic, send] : kTopics)
         if (visitor.wants(topic)) (this->*send)(visitor);
@@ -154,11 +154,6 @@ void Visitors::sendDoctor(Visitor& visitor) {
     sendTo(visitor, "doctor", message);
 }
 
-// Once; then tendVisitors() sends what is newer.
-void Visitors::sendWholeHistory(Visitor& visitor) {
-    if (!std::exchange(visitor.hasHistory, true)) sendHistory(visitor, true);
-}
-
 // Where it has changed.
 void Visitors::sendLog(Visitor& visitor) {
     browser::ToBrowser message;
@@ -169,8 +164,9 @@ void Visitors::sendLog(Visitor& visitor) {
     visitor.sentLog = std::move(text);
 }
 
-// All of it under a topic of its own: what is newer does not replace it while it waits.
-void Visitors::sendHistory(Visitor& visitor, bool isAll) {
+// First all of it, under a topic of its own: what is newer does not replace it while it waits.
+void Visitors::sendHistory(Visitor& visitor) {
+    const bool isAll = !std::exchange(visitor.hasHistory, true);
     browser::ToBrowser message;
     *message.mutable_history() = isAll ? state_.figures.history() : state_.figures.lastSecond();
     sendTo(visitor, isAll ? "history" : "history of a second", message);
@@ -224,6 +220,14 @@ void Visitors::sendMachines(Visitor& visitor) {
     if (!state_.releases) return;
     *message.mutable_releases() = *state_.releases;
     sendTo(visitor, "releases", message);
+}
+
+// Before the first look there is nothing to send.
+void Visitors::sendTour(Visitor& visitor) {
+    if (!state_.tour) return;
+    browser::ToBrowser message;
+    *message.mutable_tour() = *state_.tour;
+    sendTo(visitor, "tour", message);
 }
 
 // Under its topic: an older one that waits still is replaced.

@@ -95,13 +95,13 @@ class Visitors {
     };
     void sendLog(Visitor& visitor);
     void sendDoctor(Visitor& visitor);
-    void sendHistory(Visitor& visitor, bool isAll);
-    void sendWholeHistory(Visitor& visitor);
+    void sendHistory(Visitor& visitor);
     void sendHours(Visitor& visitor);
     void sendCalibrations(Visitor& visitor);
     void sendDrawings(Visitor& visitor);
     void sendPeople(Visitor& visitor);
     void sendMachines(Visitor& visitor);
+    void sendTour(Visitor& visitor);
     void sendPanorama(Visitor& visitor);
     void sendToAll(const std::string& topic, const browser::ToBrowser& message);
     [[nodiscard]] browser::ToBrowser snapshotFor(const Visitor& visitor) const;

@@ -5,6 +5,7 @@ import {calibrationPage} from '/calibration.js';
 import {drawingsButton, drawingsPage, hasDrawings, touchWall, touchedPanel} from '/drawings.js';
 import {nodesPage} from '/nodes.js';
 import {schedulePage} from '/schedule.js';
+import {tourPage} from '/tour.js';
 import {DAYS, QUALITIES, button, channelsOf, chooser, conditionOf, dateTime, dayOf, durationOf, filter, holdButton,
   journalOf, ms, namesOf, patternChooser, patternOf, percentOf, qualityOf, sizeOf, slider, state, t, time, timeOfTick,
   views, wholeWall, word} from '/widgets.js';
@@ -284,4 +285,4 @@ const peoplePage = {
 
 export const pages = {wall: wallPage, drawings: drawingsPage, nodes: nodesPage, events: eventsPage,
                       schedule: schedulePage, calibration: calibrationPage, doctor: doctorPage, log: logPage,
-                      mind: mindPage, people: peoplePage};
+                      mind: mindPage, tour: tourPage, people: peoplePage};

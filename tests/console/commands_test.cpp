@@ -120,7 +120,11 @@ class DeskCommands : public testing::Test {
                  return std::string();
              },
          .releasesOf = {},
-         .changeRelease = [](const std::string&, const std::string&) { return std::string(); }}};
+         .changeRelease = [](const std::string&, const std::string&) { return std::string(); },
+         .tourOf = {},
+         .confirmStep = [](const std::string&,
+                           const std::string&,
+                           const std::string&) { return std::string(); }}};
     Commands commands{parts.state, parts.visitors, errands};
 };
 
@@ -149,6 +153,7 @@ TEST_F(DeskCommands, eachNeedsItsRole) {
           [](Command& of) { of.set_power("no word"); },
           [](Command& of) { of.mutable_assign(); },
           [](Command& of) { of.set_release("forward"); },
+          [](Command& of) { of.mutable_confirm_step(); },
           [](Command& of) { of.mutable_order()->mutable_power()->set_channel("left"); }}}};
     std::uint64_t id = 0;
     for (const auto& [least, all] : kinds)
@@ -160,7 +165,7 @@ TEST_F(DeskCommands, eachNeedsItsRole) {
                 EXPECT_EQ(reason != "only " + least + " may do this", isAllowed)
                     << given.DebugString() << reason;
             }
-    EXPECT_EQ(parts.state.refused, 7U + 2 * 9U) << "in the foot of every page";
+    EXPECT_EQ(parts.state.refused, 7U + 2 * 10U) << "in the foot of every page";
     EXPECT_THAT(parts.events(), Contains("wim: refused: it needs crew"));
 }
 
@@ -183,6 +188,23 @@ TEST_F(DeskCommands, theDepotIsToldGoOrBackAndNothingElse) {
     EXPECT_EQ(say(2, "go").outcome(), Reply::WAITING);
     commands.said(2, {ask::Outcome::Refused, "not all machines have it"});
     EXPECT_THAT(parts.events(), Contains("carl: release: go, refused: not all machines have it"));
+}
+
+TEST_F(DeskCommands, aStepOfTheTourIsConfirmedAsItWasFound) {
+    const auto confirm = [&](std::uint64_t id, const std::string& found) {
+        return give(crew, command(id, [&](Command& of) {
+                        of.mutable_confirm_step()->set_name("screen");
+                        of.mutable_confirm_step()->set_found(found);
+                    }));
+    };
+    EXPECT_THAT(confirm(1, "flat").reason(), HasSubstr("look again")) << "nobody has looked yet";
+    browser::TourStep& step = *parts.state.tour.emplace().add_steps();
+    step.set_name("screen");
+    step.set_found("flat");
+    EXPECT_THAT(confirm(2, "dome").reason(), HasSubstr("look again"));
+    EXPECT_EQ(confirm(3, "flat").outcome(), Reply::WAITING);
+    commands.said(3, {});
+    EXPECT_THAT(parts.events(), Contains("carl: tour: screen is right"));
 }
 
 TEST_F(DeskCommands, whatIsNoCommandIsRefused) {

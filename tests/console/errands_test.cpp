@@ -51,7 +51,18 @@ class HeldErrands : public testing::Test {
                         return releases;
                     },
                 .changeRelease = [](const std::string&,
-                                    const std::string& word) { return "no " + word; }};
+                                    const std::string& word) { return "no " + word; },
+                .tourOf =
+                    [this](const std::string&) {
+                        hold(tours);
+                        browser::Tour tour;
+                        tour.set_seconds(tours);
+                        return tour;
+                    },
+                .confirmStep =
+                    [](const std::string&, const std::string& step, const std::string& found) {
+                        return step + " has not found " + found;
+                    }};
     }
     void hold(std::atomic<int>& count) {
         ++count;
@@ -64,7 +75,7 @@ class HeldErrands : public testing::Test {
     bool isLetGo = false;
     std::promise<void> end;
     const std::shared_future<void> ended = end.get_future().share();
-    std::atomic<int> doctors = 0, readings = 0, uses = 0, asked = 0;
+    std::atomic<int> doctors = 0, readings = 0, uses = 0, asked = 0, tours = 0;
     test::ConsoleParts parts;
     Errands errands{parts.state, work()};
 };
@@ -147,6 +158,48 @@ TEST_F(HeldErrands, theDepotIsAskedEveryTwoSeconds) {
     EXPECT_EQ(told->refusal, "no go");
     errands.wantReleases(26);
     EXPECT_TRUE(test::comesTrue([&] { return stable() == "1.4.3"; }));
+}
+
+// The pause is between the end of a look and the next; none after a word of the crew.
+TEST_F(HeldErrands, theHallIsLookedAtEveryFiveSeconds) {
+    const auto seconds = [&] {
+        static_cast<void>(errands.hear());
+        return parts.state.tour ? parts.state.tour->seconds() : 0;
+    };
+    errands.wantTour(0);
+    errands.wantTour(400);
+    EXPECT_EQ(seconds(), 0);
+    letGo();
+    EXPECT_TRUE(test::comesTrue([&] { return seconds() == 1; }));
+    errands.wantTour(449);
+    EXPECT_EQ(tours, 1);
+    errands.wantTour(450);
+    EXPECT_TRUE(test::comesTrue([&] { return seconds() == 2; }));
+    browser::ConfirmStep step;
+    step.set_name("screen");
+    step.set_found("flat");
+    EXPECT_TRUE(errands.confirm(step, 7));
+    std::optional<Errands::Ended> told;
+    ASSERT_TRUE(test::comesTrue([&] { return (told = errands.hear()).has_value(); }));
+    EXPECT_EQ(told->refusal, "screen has not found flat");
+    errands.wantTour(451);
+    EXPECT_TRUE(test::comesTrue([&] { return seconds() == 3; }));
+}
+
+TEST(TourOfHall, isReadAsTheCommandSaysIt) {
+    const browser::Tour tour = tourIn(
+        R"({"seconds":61.5,"steps":[{"name":"screen","state":"confirm","found":"flat","todo":"look",)"
+        R"("seconds":60},{"name":"hours","state":"done","found":"open","todo":"","seconds":1.5}]})");
+    EXPECT_FALSE(tour.has_problem());
+    EXPECT_EQ(tour.seconds(), 61.5);
+    ASSERT_EQ(tour.steps_size(), 2);
+    EXPECT_EQ(tour.steps(0).name() + " " + tour.steps(0).state(), "screen confirm");
+    EXPECT_EQ(tour.steps(0).found() + " " + tour.steps(0).todo(), "flat look");
+    EXPECT_EQ(tour.steps(1).seconds(), 1.5);
+    for (const char* bad : {"", "[]", "{}", R"({"seconds":1,"steps":[{"name":"screen"}]})"}) {
+        EXPECT_EQ(tourIn(bad).problem(), "the steps cannot be read") << bad;
+        EXPECT_EQ(tourIn(bad).steps_size(), 0) << bad;
+    }
 }
 
 TEST(ReleasesOfHall, areReadAsTheDepotSaysThem) {

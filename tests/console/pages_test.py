@@ -41,7 +41,7 @@ from PIL import Image
 from scipy.ndimage import gaussian_filter
 
 AXE = (Path(__file__).parent / "axe/axe.min.js").read_text()
-PAGES = ["wall", "drawings", "nodes", "events", "schedule", "calibration", "doctor", "log", "mind", "people"]
+PAGES = ["wall", "drawings", "nodes", "events", "schedule", "calibration", "doctor", "log", "mind", "tour", "people"]
 SHOTS = os.environ.get("AQUARAMA_SHOTS")
 # For the picture of the guide.
 WEEK = """zone: "Europe/Berlin"
@@ -537,6 +537,21 @@ class Pages(unittest.TestCase):
             wait_until(lambda: "in use" in self.row_of(date).text, 10, "the list to say so")
         self.open("events")
         self.assertRegex(self.text("ol.events"), r"Anna\s+calibration 2026-01-24T210301")
+
+    def test_the_tour_of_a_new_hall_is_shown_and_the_crew_confirms_what_it_sees(self):
+        self.open("tour")
+        steps = lambda: [step.text for step in self.driver.find_elements(By.CSS_SELECTOR, "ol.steps > li")]
+        wait_until(lambda: len(steps()) == 8, 40, "the steps")
+        self.assertRegex(steps()[0], r"(?s)Screen please look.*as in desk.txtpb of the programs.*measure the screen")
+        self.assertRegex(steps()[1], r"(?s)Machines done.*all of 3 nodes")
+        self.assertRegex(steps()[5], r"(?s)Calibration done.*pass")
+        self.assertEqual(self.find(self.driver, "[aria-current=step] h3").text.split("\n")[0][2:8], "Screen")
+        self.shot("tour")
+        self.button("It is right").click()
+        wait_until(lambda: "Screen done" in steps()[0], 40, "the confirmed step")
+        self.assertRegex(self.text("[role=status]"), r"\d of 8 steps done, \d+ s so far")
+        self.open("events")
+        self.assertRegex(self.text("ol.events"), r"Anna\s+tour: screen is right")
 
     def test_a_pattern_of_a_scan_is_held_while_the_page_is_open(self):
         before = self.desk.status()["pattern"]

@@ -158,6 +158,23 @@ class Tour(ShowCase):
             os.close(terminal)
             self.assertEqual(re.findall(r"^(\w+): ", said.decode().replace("\r", ""), re.MULTILINE)[-1], last)
 
+    def test_a_program_is_told_the_steps_and_confirms_what_was_found(self):
+        listed = self.tour("--json")
+        told = json.loads(listed.stdout)
+        self.assertEqual(listed.returncode, 1)
+        self.assertEqual([step["name"] for step in told["steps"]],
+                         ["screen", "machines", "channels", "doctor", "focus", "calibration", "hours", "backup"])
+        screen = told["steps"][0]
+        self.assertEqual(screen["state"], "confirm")
+        refused = aquarama("tour", self.rig, "--confirm", "screen", "--found", "flat")
+        self.assertEqual(refused.returncode, 1)
+        self.assertRegex(refused.stderr, r"\Aaquarama tour: screen: has found by now: cylinder, .*; look again\n\Z")
+        self.assertEqual(self.tour("--confirm", "screen", "--found", screen["found"]).returncode, 0)
+        states = [step["state"] for step in json.loads(self.tour("--json").stdout)["steps"]]
+        self.assertEqual(states[:2], ["done", "todo"])
+        for wrong in (("--confirm", "screen"), ("--found", "flat"), ("--confirm", "lunch", "--found", "flat")):
+            self.assertNotEqual(aquarama("tour", self.rig, *wrong).returncode, 0)
+
     def test_one_step_alone_is_begun_anew(self):
         self.tour(keys="\n")
         done = self.tour("--step", "screen")
