@@ -30,7 +30,7 @@ make_hall() {
     cat >"$hall/etc/aquarama/rigs/hall.txtpb" <<'RIG'
 name: "hall"
 panorama { width_px: 480 height_px: 120 }
-network { control: "tcp://192.168.7.1:7400" state: "tcp://192.168.7.1:7401" }
+network { control: "tcp://192.168.7.1:7400" state: "tcp://192.168.7.1:7401" depot: "tcp://192.168.7.1:7403" }
 timing { refresh_hz: 60 present_deadline_s: 60 membership_s: 120 }
 scene: "/usr/share/aquarama/config/scenes/empty_sea.txtpb"
 RIG
@@ -43,6 +43,7 @@ channels {
   height_px: 120
   panel { position { x_m: $((x / 160 - 1)) y_m: 0 z_m: -1.2 } width_m: 1 height_m: 0.75 }
   display { mode: WINDOW window_x_px: $x window_y_px: 0 }
+  $([ $channel != right ] || echo 'machine: "spare"')
 }
 RIG
         echo "NODE=--key /etc/aquarama/keys/hall/$channel.key" >"$hall/etc/aquarama/nodes/$channel.conf"
@@ -131,7 +132,8 @@ keep_screen() {
 }
 
 make_hall
-packaging/build-image --hall "$work/hall" --words "console=ttyS0 systemd.journald.forward_to_console=1" "$release"
+openssl genpkey -algorithm ed25519 -out "$work/show.key"
+packaging/build-image --hall "$work/hall" --key "$work/show.key" --words "console=ttyS0 systemd.journald.forward_to_console=1" "$release"
 
 # On the stick, as it is.
 image=$(ls build/image/aquarama-*.img)
@@ -151,8 +153,8 @@ keys() {
     tell monitor "sendkey ret"
 }
 
-# Two machines and a cable: one shows the hall, the other waits for its channel.
-python3 tests/packaging/two_machines.py "$image" build/image/hall build/image
+# Two machines and a cable: one shows the hall, the other waits for its channel; then both take releases.
+python3 tests/packaging/two_machines.py "$image" build/image/hall build/image "$work/show.key"
 
 # From the stick to a disk: the entry "install", a name that is not there, then the disk's own.
 printf 'timeout 0\ndefault aquarama-install.conf\n' >"$work/loader.conf"

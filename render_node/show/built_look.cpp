@@ -89,15 +89,23 @@ bool lightsAnything(const wall::WarpMap& warp) {
 
 }  // namespace
 
-void BuiltLook::requireLight() {
+bool BuiltLook::isTargetBlack() {
     constexpr int kWidthPixels = 64;
-    constexpr std::array<float, 4> kBlack{};
-    glClearNamedFramebufferfv(targets_.front().framebuffer(), GL_COLOR, 0, kBlack.data());
-    drawEmpty();
     reader_->begin(targets_.front(), kWidthPixels);
     gl::waitForGpu();
-    const auto drawn = reader_->take();
-    if (drawn && isBlack(*drawn) && lightsAnything(wall_->warp(channel_)))
+    const auto shown = reader_->take();
+    return shown && isBlack(*shown);
+}
+
+void BuiltLook::requireLight() {
+    constexpr std::array<float, 4> kWhite{1, 1, 1, 1}, kBlack{0, 0, 0, 1};
+    const unsigned target = targets_.front().framebuffer();
+    glClearNamedFramebufferfv(target, GL_COLOR, 0, kWhite.data());
+    const bool isExecuted = !isTargetBlack();
+    glClearNamedFramebufferfv(target, GL_COLOR, 0, kBlack.data());
+    drawEmpty();
+    if (!isExecuted) return logInfo("the driver executes nothing: there is no card");
+    if (isTargetBlack() && lightsAnything(wall_->warp(channel_)))
         throw Error("the driver draws a black picture (" + renderer_ +
                     "); install another version of it, or use another card");
 }

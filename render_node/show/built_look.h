@@ -60,8 +60,10 @@ class BuiltLook {
     [[nodiscard]] double secondsAFrame(config::QualityTier quality);
     void drawEmpty();
     // Throws Error where what drawEmpty() leaves is black, and the channel lights something. A
-    // driver may accept all and draw nothing; that must not count as a show.
+    // driver may accept all and draw nothing; that must not count as a show. One that executes
+    // nothing at all, as it has no card, is for tests.
     void requireLight();
+    [[nodiscard]] bool isTargetBlack();
 
     session::Admission admission_;
     std::shared_ptr<school::SchoolMotion> motion_;

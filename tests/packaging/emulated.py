@@ -1,5 +1,6 @@
 """Machines that QEMU emulates, with UEFI and without KVM, and what their screens show."""
 
+import json
 import shutil
 import socket
 import subprocess
@@ -15,8 +16,10 @@ from check_screen import MOST_SHARE, read_ppm, share_apart  # noqa: E402
 from check_pictures import read_png  # noqa: E402
 
 
-def called(*command, **more):
-    return subprocess.run([*map(str, command)], check=True, capture_output=True, text=True, **more).stdout
+def called(*command, okay=(0,)):
+    done = subprocess.run([*map(str, command)], capture_output=True, text=True)
+    assert done.returncode in okay, f"{command}: {done.stdout}{done.stderr}"
+    return done.stdout
 
 
 def wait_until(condition, seconds, what):
@@ -48,6 +51,16 @@ class Machine:
     def entries(self):
         listed = called("mdir", "-b", "-i", self.system(), "::loader/entries")
         return {line.rsplit("/", 1)[1] for line in listed.split()}
+
+    def put_in_data(self, folder, where):
+        """Copies a folder into one of the data partition, while it is off."""
+        start = called("sfdisk", "--json", self.disk)
+        start = json.loads(start)["partitiontable"]["partitions"][1]["start"]
+        commands = [f"mkdir {where}", f"mkdir {where}/{folder.name}",
+                    *(f"write {file} {where}/{folder.name}/{file.name}" for file in sorted(folder.iterdir()))]
+        (self.folder / "commands").write_text("\n".join(commands))
+        called("e2fsck", "-fp", f"{self.disk}?offset={512 * start}", okay=(0, 1))
+        called("debugfs", "-w", "-f", self.folder / "commands", f"{self.disk}?offset={512 * start}")
 
     def power_on(self, listens):
         variables, serial, monitor, shell = (self.folder / name for name in ("vars", "serial", "monitor", "shell"))

@@ -1,47 +1,71 @@
-"""two_machines.py IMAGE PICTURES SCREENS: a hall on one emulated machine, and a second one that waits for its channel.
+"""two_machines.py IMAGE PICTURES SCREENS KEY [CUTS]: a hall on one emulated machine, and a second one that waits for its
+channel; then releases for both.
 
 IMAGE has the hall of packaging/try-image.sh: its machine gives addresses to others. Both start from that image, the
 second by the entry "node". Its letter is found by the first, its code is typed there, and it takes the place of the
-first one's right channel. It comes back with it after a power cut. PICTURES has what the channels show without a
-display; screens are left in SCREENS as try-*.ppm.
+first one's right channel. It comes back with it after a power cut.
+
+Then a depot on the first brings releases to both: one that shows the wall, one whose nodes crash, one whose nodes hang,
+and one that draws black. The bad ones are left again by both together. During the first, one of both machines loses its
+power CUTS times (2), at random moments. KEY signs releases.
+
+PICTURES has what the channels show without a display; screens are left in SCREENS as try-*.ppm.
 """
 
+import random
 import re
 import shutil
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
-from emulated import Machine, picture, wait_until
+from emulated import Machine, called, picture, wait_until
 
 MOST_SECONDS = 1800  # until a picture is there
 CABLE = 7490
 WIDTH = 160  # of a channel, in pixels
+# What becomes of aquarama-node in a release. A library that takes every call to draw, and draws nothing, makes black.
+FAULTS = {"9.2": "#!/bin/sh\nexit 1\n", "9.3": "#!/bin/sh\nexec sleep infinity\n",
+          "9.4": "#!/bin/sh\nLD_PRELOAD=/usr/lib/aquarama/blind.so exec /usr/lib/aquarama/aquarama-node \"$@\"\n"}
+BLIND = """#include <epoxy/gl.h>
+static void nothing(GLenum mode, GLint first, GLsizei count) { (void)mode; (void)first; (void)count; }
+__attribute__((constructor)) static void go_blind(void) { epoxy_glDrawArrays = nothing; }
+"""
 
 
 class Hall:
-    def __init__(self, folder, image, pictures, screens):
-        self.screens = screens
+    def __init__(self, folder, image, pictures, screens, key):
+        self.folder, self.screens, self.key = folder, screens, key
         disks = {name: folder / f"{name}.img" for name in ("master", "spare")}
         for disk in disks.values():
             subprocess.run(["cp", "--sparse=always", image, disk], check=True)
         self.master, self.spare = (Machine(folder, name, disk, CABLE) for name, disk in disks.items())
+        self.machines = (self.master, self.spare)
         self.spare.write("loader/loader.conf", "timeout 0\ndefault aquarama-node.conf\n")
         self.picture = {name: (picture(pictures / f"channel-{name}.png"), left * WIDTH)
                         for left, name in enumerate(("left", "middle", "right"))}
+        self.version = re.fullmatch(r"aquarama-(.*)\.img", image.name)[1]
+
+    def power_on(self, machine):
+        machine.power_on(listens=machine is self.master)
 
     def end(self):
-        self.master.cut_power()
-        self.spare.cut_power()
+        for machine in self.machines:
+            machine.cut_power()
 
     def keep(self, machine, name):
         machine.keep_screen(self.screens / f"try-{name}.ppm")
 
+    def shows(self, machine, *channels):
+        return machine.shows(**{name: self.picture[name] for name in channels})
+
     def await_shown(self, machine, *channels):
-        wanted = {name: self.picture[name] for name in channels}
-        wait_until(lambda: machine.shows(**wanted), MOST_SECONDS, f"{machine.name} shows {', '.join(channels)}")
+        wait_until(lambda: self.shows(machine, *channels), MOST_SECONDS, f"{machine.name} shows {', '.join(channels)}")
         print(f"{machine.name} shows {', '.join(channels)} {machine.since_power()} s after its power", flush=True)
+
+    # --- a channel for the second machine
 
     def waiting(self):
         """Letters of the machines that wait, as the master's machine finds them."""
@@ -66,15 +90,100 @@ class Hall:
         print("assigned:", said.strip(), flush=True)
         self.spare.tell("systemctl restart aquarama-node@waiting")  # with its window again
 
+    # --- releases
 
-def main(image, pictures, screens):
+    def make_release(self, version):
+        """A release of another version, in the depot of the master's machine, which is off."""
+        self.folder.joinpath(version).mkdir()
+        tree, release = self.folder / "tree", self.folder / version
+        for file in ("vmlinuz", "initrd.img"):
+            called("mcopy", "-n", "-i", self.master.system(), f"::aquarama/{self.version}/{file}", release)
+        if not tree.exists():
+            called("mcopy", "-n", "-i", self.master.system(), f"::aquarama/{self.version}/filesystem.squashfs",
+                   self.folder)
+            called("unsquashfs", "-q", "-n", "-d", tree, self.folder / "filesystem.squashfs")
+            shutil.copy(tree / "usr/bin/aquarama-node", tree / "usr/lib/aquarama/aquarama-node")
+            (self.folder / "blind.c").write_text(BLIND)
+            called("cc", "-shared", "-fPIC", "-o", tree / "usr/lib/aquarama/blind.so", self.folder / "blind.c",
+                   "-lepoxy")
+        (tree / "usr/lib/aquarama/image/version").write_text(f"{version}\n")
+        node = tree / "usr/bin/aquarama-node"
+        if version in FAULTS:
+            node.write_text(FAULTS[version])
+        called("mksquashfs", tree, release / "filesystem.squashfs", "-comp", "zstd", "-Xcompression-level", "3",
+               "-no-progress")
+        shutil.copy(tree / "usr/lib/aquarama/aquarama-node", node)
+        sign = (f"source <(sed -n '/^sign()/,/^}}/p' packaging/build-image); key={self.key} version={version}; "
+                f"sign {release} $(date +%s)")
+        subprocess.run(["bash", "-euc", sign], check=True)
+        self.master.put_in_data(release, "/var/lib/aquarama/releases")
+
+    def status(self):
+        return self.master.tell("aquarama-hall release status hall.txtpb 2>&1")
+
+    def await_status(self, what):
+        wait_until(lambda: re.search(what, self.status()), MOST_SECONDS, f"{what}: {self.status()}")
+
+    def begin_depot(self):
+        follow = "FOLLOW=\"--depot tcp://192.168.7.1:7403 --key {}\""
+        for machine, key in ((self.master, "/etc/aquarama/keys/hall/crew.key"),
+                             (self.spare, "/var/lib/aquarama/node.key")):
+            machine.tell(f"echo '{follow.format(key)}' >/etc/aquarama/follow.conf; "
+                         "echo 'DEPOT=\"--frames 20 --seconds 900\"' >/etc/aquarama/depot.conf; "
+                         "install -d -o aquarama -g aquarama /var/lib/aquarama/releases; sync; "
+                         "systemctl start aquarama-depot aquarama-follow")
+        self.await_status(f"all run {re.escape(self.version)}")
+
+    def boots_of(self, machine):
+        return machine.tell("cat /usr/lib/aquarama/image/version").strip()
+
+    def activate(self, version, cuts=0):
+        """Stages it and says go; one of both loses its power so often meanwhile."""
+        said = self.master.tell(f"aquarama-hall release stage hall.txtpb {version} 2>&1", 900)
+        print(f"stage {version}: {said.strip()}", flush=True)
+        for _ in range(cuts):
+            time.sleep(random.uniform(1, 120))
+            machine = random.choice(self.machines)
+            machine.cut_power()
+            print(f"{machine.name} loses its power: {sorted(machine.entries())}", flush=True)
+            self.power_on(machine)
+        self.await_status("all machines have it")
+        print(self.master.tell("aquarama-hall release go hall.txtpb 2>&1").strip(), flush=True)
+
+    def take_releases(self, cuts):
+        self.make_release("9.1")
+        self.power_on(self.master)
+        self.await_shown(self.master, "left", "middle")
+        self.begin_depot()
+        self.activate("9.1", cuts)
+        self.await_status(r"all run 9\.1")
+        self.await_shown(self.master, "left", "middle")
+        self.await_shown(self.spare, "right")
+        assert {self.boots_of(machine) for machine in self.machines} == {"9.1"}
+        for version in FAULTS:
+            self.leave_again(version)
+
+    def leave_again(self, version):
+        self.master.cut_power()
+        self.make_release(version)
+        self.power_on(self.master)
+        self.await_status(r"all run 9\.1")
+        self.activate(version)
+        self.await_status(rf"release {re.escape(version)} was left")
+        print(self.status(), flush=True)
+        self.await_shown(self.master, "left", "middle")
+        self.await_shown(self.spare, "right")
+        assert {self.boots_of(machine) for machine in self.machines} == {"9.1"}
+
+
+def main(image, pictures, screens, key, cuts="2"):
     with tempfile.TemporaryDirectory(prefix="aquarama-", dir="/var/tmp") as folder:
-        hall = Hall(Path(folder), Path(image), Path(pictures), Path(screens))
+        hall = Hall(Path(folder), Path(image), Path(pictures), Path(screens), key)
         try:
-            hall.master.power_on(listens=True)
+            hall.power_on(hall.master)
             hall.await_shown(hall.master, "left", "middle", "right")
             hall.keep(hall.master, "hall")
-            hall.spare.power_on(listens=False)
+            hall.power_on(hall.spare)
             wait_until(hall.waiting, MOST_SECONDS, "the second machine waits for its channel")
             print(f"the second machine is found {hall.spare.since_power()} s after its power", flush=True)
             print(hall.spare.tell("networkctl --no-pager list; ip -4 -brief address").strip(), flush=True)
@@ -83,16 +192,20 @@ def main(image, pictures, screens):
             hall.await_shown(hall.spare, "right")
             hall.keep(hall.spare, "spare")
             hall.keep(hall.master, "hall-without-right")
-            assert not hall.master.shows(right=hall.picture["right"]), "two machines show one channel"
+            assert not hall.shows(hall.master, "right"), "two machines show one channel"
             hall.spare.cut_power()
-            hall.spare.power_on(listens=False)
+            hall.power_on(hall.spare)
             hall.await_shown(hall.spare, "right")
             print("it comes back with its channel after a power cut", flush=True)
+            hall.master.cut_power()
+            hall.take_releases(int(cuts))
         except BaseException:
-            for machine in (hall.master, hall.spare):
+            for machine in hall.machines:
                 serial = machine.folder / "serial"
                 if serial.exists():
                     shutil.copy(serial, Path(screens) / f"{machine.name}.log")
+                if machine.process:
+                    hall.keep(machine, f"failed-{machine.name}")
             raise
         finally:
             hall.end()
