@@ -41,7 +41,7 @@ struct ServeOptions {
 };
 
 struct FollowOptions {
-    std::string depot;  // address
+    std::string depot;  // address; empty: the key says it
     std::string key;    // file, of CURVE; empty: the depot is on this machine
     std::string place;  // without a key
     std::string system, program, showKey;
@@ -121,6 +121,16 @@ std::optional<net::PeerKeys> peerKeysOf(const std::string& file) {
     return net::PeerKeys{key.masterKey, {key.publicKey, key.secretKey}};
 }
 
+// Throws Error where neither the options nor the key name it.
+std::string depotOf(const FollowOptions& options) {
+    std::string address = options.depot;
+    if (address.empty() && !options.key.empty())
+        address = config::readKeyFile(options.key).depotAddress;
+    if (address.empty())
+        throw Error("the key names no depot: its rig had none; name it with --depot");
+    return address;
+}
+
 // Until a signal, or until the machine starts anew.
 void followDepot(const FollowOptions& options) {
     cli::holdSignals();
@@ -129,7 +139,7 @@ void followDepot(const FollowOptions& options) {
                            .program = options.program,
                            .memory = userFolder("XDG_STATE_HOME", ".local/state") / "release.txtpb",
                            .key = releases::readShowKey(options.showKey)},
-                          net::connectNode(options.depot, {}, peerKeysOf(options.key)));
+                          net::connectNode(depotOf(options), {}, peerKeysOf(options.key)));
     machine::ServiceNotifier service;
     service.ready();
     service.alive(0);
@@ -281,7 +291,7 @@ void addServe(CommandLine& line, CLI::App& release) {
 void addFollow(CommandLine& line, CLI::App& release) {
     const auto [app, options] = line.addTo<FollowOptions>(
         release, "follow", "let this machine run what the depot says, until a signal", followDepot);
-    app.add_option("--depot", options.depot, "address of the depot")->required();
+    app.add_option("--depot", options.depot, "address of the depot, where the key does not say it");
     app.add_option("--key", options.key, "file of the key to show (aquarama keys bundle)");
     app.add_option("--place", options.place, "without a key: a channel that this machine shows")
         ->check(cli::plainWord());

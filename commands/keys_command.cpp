@@ -203,6 +203,7 @@ void bundleKey(const KeyOptions& options) {
         throw Error(key.name + " was revoked on " + key.revoked +
                     "; make a new key (aquarama keys rotate)");
     key.masterAddress = rig.controlAddress;
+    key.depotAddress = rig.sides.depot;
     const fs::path out =
         options.out.empty() ? config::keyFileIn("", key.name) : fs::path(options.out);
     std::error_code none;

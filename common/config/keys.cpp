@@ -64,7 +64,8 @@ KeyFile parseKeyFile(const std::string& text, const std::string& source) {
             .publicKey = in.public_key(),
             .secretKey = in.secret_key(),
             .made = in.made(),
-            .revoked = in.revoked()};
+            .revoked = in.revoked(),
+            .depotAddress = in.depot_address()};
 }
 
 std::string textOf(const KeyFile& key) {
@@ -79,6 +80,7 @@ std::string textOf(const KeyFile& key) {
     out.set_secret_key(key.secretKey);
     out.set_made(key.made);
     if (!key.revoked.empty()) out.set_revoked(key.revoked);
+    if (!key.depotAddress.empty()) out.set_depot_address(key.depotAddress);
     std::string text;
     google::protobuf::TextFormat::PrintToString(out, &text);
     return "# Secret: whoever holds this file takes part as " + key.name + ".\n" + text;

@@ -37,7 +37,8 @@ struct KeyFile {
     std::string name;           // of the channel; "master"; or of the role
     KeyRole role = KeyRole::Watcher;
     std::string publicKey, secretKey;
-    std::string made, revoked;  // days, 2026-11-23; revoked is empty while the key is valid
+    std::string made, revoked;      // days, 2026-11-23; revoked is empty while the key is valid
+    std::string depotAddress = {};  // of releases; empty: the rig has none
 };
 
 // Throws Error where it cannot be read, is malformed, or others than its owner may read it.

@@ -84,7 +84,8 @@ KeyFile freshKey(const config::Rig& rig,
             .publicKey = std::move(pair.publicKey),
             .secretKey = std::move(pair.secretKey),
             .made = day,
-            .revoked = {}};
+            .revoked = {},
+            .depotAddress = rig.sides.depot};
 }
 
 void assignChannel(const std::string& rigPath,

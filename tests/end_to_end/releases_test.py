@@ -98,8 +98,8 @@ class Machine:
         environment = os.environ | {"XDG_STATE_HOME": str(self.folder / "state")}
         with open(self.hall.folder / "log", "a") as log:
             self.agent = subprocess.Popen(
-                [BIN / "aquarama", "release", "follow", "--depot", self.hall.address, "--key", self.key, "--system",
-                 self.system, "--machine", self.program, "--signed-by", self.hall.open_key],
+                [BIN / "aquarama", "release", "follow", "--key", self.key, "--system", self.system, "--machine",
+                 self.program, "--signed-by", self.hall.open_key],
                 env=environment, stdout=log, stderr=log, start_new_session=True)
 
     def kill_agent(self):
@@ -138,7 +138,6 @@ class Hall:
             (r"tcp://127\.0\.0\.1", f"tcp://{ADDRESS}"),
             (r'(  watch: "tcp://\S+):(\d+)".*', r'\1:\2"' + f'\n  depot: "tcp://{ADDRESS}:7999"'),
             (r'name: "middle"', 'name: "middle" machine: "b"'), (r'name: "right"', 'name: "right" machine: "c"')])
-        self.address = f"tcp://{ADDRESS}:7999"
         self.keys = folder / "keys"
         assert aquarama("keys", "new", self.rig, "--keys", self.keys).returncode == 0
         self.release("1.0")

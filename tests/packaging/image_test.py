@@ -139,6 +139,30 @@ class Frames(unittest.TestCase):
         self.assertEqual(self.frames(left="frame 700", waiting="waits for a channel"), "700\n")
 
 
+class Adoption(unittest.TestCase):
+    """A machine that is given its channel follows the depot that its key names."""
+
+    def adopt(self, folder, key):
+        (folder / "node.key").write_text(key)
+        script = (IMAGE / "adopt").read_text()
+        for path in ("/var/lib/aquarama", "/etc/aquarama"):
+            self.assertIn(path, script)
+            script = script.replace(path, str(folder))
+        (folder / "systemctl").write_text(f'#!/bin/sh\necho "$*" >>{folder}/calls\n')
+        (folder / "systemctl").chmod(0o755)
+        subprocess.run(["sh", "-c", script], check=True, env=os.environ | {"PATH": f"{folder}:{os.environ['PATH']}"})
+
+    def test_where_its_key_names_one(self):
+        with tempfile.TemporaryDirectory() as temporary:
+            folder = Path(temporary)
+            self.adopt(folder, 'rig: "hall"\ndepot_address: "tcp://192.168.7.1:7403"\n')
+            self.assertEqual((folder / "follow.conf").read_text(), f'FOLLOW="--key {folder}/node.key"\n')
+            self.assertEqual((folder / "calls").read_text(), "start --no-block aquarama-follow\n")
+            self.adopt(folder, 'rig: "hall"\n')
+            self.assertFalse((folder / "follow.conf").exists())
+            self.assertEqual(len((folder / "calls").read_text().splitlines()), 1)
+
+
 class Signature(unittest.TestCase):
     def test_of_an_image_is_what_machines_take(self):
         aquarama = Path(os.environ["AQUARAMA_BIN"]) / "aquarama"

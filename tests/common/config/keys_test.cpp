@@ -47,6 +47,7 @@ TEST_F(Keys, everyFieldComesBackFromAFileThatItsOwnerAloneMayRead) {
     KeyFile written = key("left");
     written.role = KeyRole::Operator;
     written.revoked = "2026-12-01";
+    written.depotAddress = "tcp://192.168.7.1:7403";
     const fs::path path = keyFileIn(folder_, "left");
     writeKeyFile(path, written);
     writeKeyFile(path, written);  // over the first
@@ -61,6 +62,7 @@ TEST_F(Keys, everyFieldComesBackFromAFileThatItsOwnerAloneMayRead) {
     EXPECT_EQ(read.secretKey, written.secretKey);
     EXPECT_EQ(read.made, written.made);
     EXPECT_EQ(read.revoked, written.revoked);
+    EXPECT_EQ(read.depotAddress, written.depotAddress);
 }
 
 TEST_F(Keys, aFolderIsReadByNameAndNothingElseInIt) {
