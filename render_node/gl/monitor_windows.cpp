@@ -9,16 +9,11 @@
 #include <GLFW/glfw3.h>
 
 #include "common/base/log.h"
+#include "render_node/gl/monitors.h"
 
 namespace aquarama::gl {
 
 namespace {
-
-std::vector<GLFWmonitor*> monitorsNow() {
-    int count = 0;
-    GLFWmonitor** monitors = glfwGetMonitors(&count);
-    return {monitors, monitors + count};
-}
 
 bool isLeft(GLFWwindow* window) {
     return glfwWindowShouldClose(window) != GLFW_FALSE ||
@@ -32,10 +27,20 @@ void MonitorWindows::DestroyWindow::operator()(GLFWwindow* window) const {
     glfwDestroyWindow(window);
 }
 
-MonitorWindows::MonitorWindows(std::string title) : title_{std::move(title)} {
+MonitorWindows::MonitorWindows(std::string title, std::string connector)
+    : title_{std::move(title)}, connector_{std::move(connector)} {
+    if (!connector_.empty()) static_cast<void>(requireMonitor(connector_));
     open();
     if (windows_.empty())
         throw Error("this machine has no monitor; connect one, or use --headless");
+}
+
+std::vector<GLFWmonitor*> MonitorWindows::monitorsNow() const {
+    int count = 0;
+    GLFWmonitor** monitors = glfwGetMonitors(&count);
+    if (connector_.empty()) return {monitors, monitors + count};
+    GLFWmonitor* monitor = monitorAt(connector_);
+    return monitor == nullptr ? std::vector<GLFWmonitor*>{} : std::vector{monitor};
 }
 
 // In the mode that each monitor has now.

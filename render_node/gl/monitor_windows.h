@@ -20,8 +20,9 @@ namespace aquarama::gl {
 // Of the main thread; only one window context may exist at a time, and these are it.
 class MonitorWindows {
   public:
-    // Throws Error where no window can be opened.
-    explicit MonitorWindows(std::string title);
+    // On the monitor at this connector alone; empty: on all. Throws Error where no window can be
+    // opened.
+    MonitorWindows(std::string title, std::string connector);
     // Handles events for so long. True: somebody has pressed q or Escape, or has closed a window.
     [[nodiscard]] bool pumpEvents(std::chrono::milliseconds atMost);
     // Draws in each window, whose context is current for `paint`, and shows it. Monitors that have
@@ -34,9 +35,11 @@ class MonitorWindows {
         void operator()(GLFWwindow* window) const;
     };
     void open();
+    // Those that are to have windows.
+    [[nodiscard]] std::vector<GLFWmonitor*> monitorsNow() const;
 
     GlfwLibrary library_;
-    std::string title_;
+    std::string title_, connector_;
     std::vector<GLFWmonitor*> monitors_;  // that have windows
     std::vector<std::unique_ptr<GLFWwindow, DestroyWindow>> windows_;
 };

@@ -16,6 +16,7 @@
 #include "common/cli/outputs.h"
 #include "common/config/keys.h"
 #include "common/config/species.h"
+#include "common/machine/connectors.h"
 #include "common/net/channels.h"
 #include "common/skin/limit_table.h"
 #include "render_node/gl/context.h"
@@ -73,7 +74,12 @@ void describe(CLI::App& app,
                  "where there is no such file yet: show a letter and a code on each monitor, until "
                  "the console or aquarama nodes assign hands it over")
         ->needs("--key");
-    app.add_flag("--headless", options.headless, "draw without a display");
+    CLI::Option* connector = app.add_option(
+        "--connector",
+        options.connector,
+        "the monitor of a channel that fills one, as HDMI-1, instead of the rig's; its letter is "
+        "on that one alone");
+    app.add_flag("--headless", options.headless, "draw without a display")->excludes(connector);
     app.add_option(
            "--device",
            options.device,
@@ -162,12 +168,13 @@ int main(int count, char** arguments) {
     PaintOptions paint;
     describe(app, options, key, paint);
     return cli::runProgram(app, count, arguments, [&] {
+        options.connector = machine::connectorName(options.connector);
         if (!paint.species.empty()) {
             spareFullDisk();
             return writeColours(paint);
         }
         if (key.isAwaited && !std::filesystem::exists(key.path) &&
-            !show::waitForKey(key.path, options.headless))
+            !show::waitForKey(key.path, options.headless, options.connector))
             return 0;
         readKey(key.path, options);
         app.name(app.get_name() + " " + options.channel);

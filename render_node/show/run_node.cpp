@@ -33,13 +33,15 @@ std::unique_ptr<gl::Context> openContext(const NodeOptions& options,
                                          const config::Rig& rig,
                                          std::size_t index) {
     const config::Channel& channel = rig.channels[index];
+    config::Display display = channel.display;
+    if (!options.connector.empty()) display.connector = options.connector;
     if (!options.headless)
         return gl::makeWindowContext(
-            channel.display,
+            display,
             "Aquarama " + channel.name,
             channel.sizePixels,
             wall::stereoOf(rig, index).mode == config::StereoMode::QuadBuffer);
-    const std::string& device = options.device.empty() ? channel.display.device : options.device;
+    const std::string& device = options.device.empty() ? display.device : options.device;
     auto context = gl::makeOffscreenContext(device, channel.sizePixels);
     context->release();
     return context;

@@ -16,6 +16,8 @@ struct NodeOptions {
     std::vector<std::string> masterAddresses;  // control; of the master, then of its standby
     std::optional<net::PeerKeys> keys;         // where the master is on another machine
     bool headless = false;
+    // The monitor of a channel that fills one, in place of the rig's; empty: the rig's.
+    std::string connector;
     // With --headless, in place of the rig's device; empty: the rig's.
     std::string device;
     // Where the last frame is written.

@@ -23,8 +23,8 @@ using namespace std::chrono_literals;
 // Where the sign is seen: on the screens, or in the log.
 class Board {
   public:
-    explicit Board(bool isHeadless) {
-        if (!isHeadless) windows_ = std::make_unique<gl::MonitorWindows>("Aquarama");
+    Board(bool isHeadless, const std::string& connector) {
+        if (!isHeadless) windows_ = std::make_unique<gl::MonitorWindows>("Aquarama", connector);
     }
     // True: somebody at the machine has ended it.
     [[nodiscard]] bool show(const enrol::NodeSign& sign) {
@@ -45,12 +45,14 @@ class Board {
 
 }  // namespace
 
-bool waitForKey(const std::filesystem::path& keyFile, bool isHeadless) {
+bool waitForKey(const std::filesystem::path& keyFile,
+                bool isHeadless,
+                const std::string& connector) {
     cli::holdSignals();
     machine::ServiceNotifier service;
     std::atomic<bool> isOver = false;
     const cli::SignalWatch watch([&] { isOver = true; });
-    Board board(isHeadless);
+    Board board(isHeadless, connector);
     enrol::NodeDoor door([&](const config::KeyFile& key) { config::writeKeyFile(keyFile, key); });
     while (!isOver) {
         if (const auto key = door.serve(50ms)) {

@@ -4,12 +4,16 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace aquarama::show {
 
 // Waits for a key, and writes it to this file. With `isHeadless` the log says what screens would
-// show. On the main thread. False: a signal, or a key in a window, has ended it. Throws Error where
-// no window can be opened, or the network cannot be listened to.
-[[nodiscard]] bool waitForKey(const std::filesystem::path& keyFile, bool isHeadless);
+// show. `connector`: of the monitor; empty: all. On the main thread. False: a signal, or a key in a
+// window, has ended it. Throws Error where no window can be opened, or the network cannot be
+// listened to.
+[[nodiscard]] bool waitForKey(const std::filesystem::path& keyFile,
+                              bool isHeadless,
+                              const std::string& connector);
 
 }  // namespace aquarama::show

@@ -155,6 +155,10 @@ class Windows(unittest.TestCase):
         self.display.press(window, "q")
         self.assertEqual(node.wait(20), 0)
         self.assertFalse(key.exists())
+        wrong = subprocess.run([BIN / "aquarama-node", "--key", key, "--wait-for-key", "--connector", "HDMI-A-9"],
+                               env=self.display.environment, capture_output=True, text=True, timeout=60)
+        self.assertEqual(wrong.returncode, 1)
+        self.assertRegex(wrong.stderr, r"there is no monitor HDMI-9; this machine has screen: ")
 
     def test_keys(self):
         self.run_show()

@@ -112,6 +112,57 @@ class Entry(unittest.TestCase):
         self.assertEqual(self.entry("node").replace("node", "show"), self.entry("show"))
 
 
+class Channels(unittest.TestCase):
+    """Which channels a machine has, by pretended connectors and service manager."""
+
+    def channels(self, word, mode, monitors=(), keys=(), files=()):
+        with tempfile.TemporaryDirectory() as temporary:
+            folder = Path(temporary)
+            for name in ("nodes", "lib", "drm"):
+                (folder / name).mkdir()
+            for name in monitors:
+                (folder / "drm" / name).mkdir()
+                (folder / "drm" / name / "status").write_text("connected\n")
+            (folder / "drm/card0-DP-7").mkdir()
+            (folder / "drm/card0-DP-7/status").write_text("disconnected\n")
+            (folder / "cmdline").write_text(f"quiet aquarama.mode={mode} aquarama.data=0a-1b\n")
+            for name in keys:
+                (folder / "lib" / f"{name}.key").touch()
+            for name in files:
+                (folder / "nodes" / f"{name}.conf").write_text("NODE=own\n")
+            script = (IMAGE / "channels").read_text()
+            for old, new in (("/etc/aquarama/nodes", "nodes"), ("/var/lib/aquarama", "lib"),
+                             ("/sys/class/drm", "drm"), ("/proc/cmdline", "cmdline")):
+                self.assertIn(old, script)
+                script = script.replace(old, str(folder / new))
+            for name, text in (("systemctl", 'echo "$*"'), ("systemd-escape", 'echo "$1"')):
+                (folder / name).write_text(f"#!/bin/sh\n{text}\n")
+                (folder / name).chmod(0o755)
+            said = subprocess.run(["sh", "-c", script, "channels", word], check=True, capture_output=True, text=True,
+                                  env=os.environ | {"PATH": f"{folder}:{os.environ['PATH']}"}).stdout.splitlines()
+            return said, {file.stem: file.read_text().replace(str(folder), "") for file in folder.glob("nodes/*")}
+
+    def test_of_a_hall_are_those_of_its_files(self):
+        self.assertEqual(self.channels("list", "show", ["card0-HDMI-A-1"], files=["left", "right"])[0],
+                         ["left", "right"])
+        self.assertEqual(self.channels("stop", "show", files=["left"])[0], ["stop aquarama-node@left"])
+        self.assertEqual(self.channels("list", "show")[0], [])
+
+    def test_of_a_machine_that_waits_are_its_monitors_and_what_it_was_given(self):
+        said, files = self.channels("start", "node", ["card0-HDMI-A-1", "card1-DP-2"], ["HDMI-A-3"], ["left"])
+        self.assertEqual(said, [f"start --no-block aquarama-node@{name}" for name in ("DP-2", "HDMI-A-1", "HDMI-A-3")])
+        self.assertEqual(files["DP-2"], "NODE=--key /lib/DP-2.key --wait-for-key --connector DP-2\n")
+
+    def test_without_monitors_it_waits_for_them(self):
+        said, files = self.channels("list", "node")
+        self.assertEqual(said, ["any"])
+        self.assertEqual(files["any"], "NODE=--key /lib/any.key --wait-for-key \n")
+
+    def test_a_file_of_the_crew_stays(self):
+        self.assertEqual(self.channels("list", "node", ["card0-DP-2"], files=["DP-2"]),
+                         (["DP-2"], {"DP-2": "NODE=own\n"}))
+
+
 class Frames(unittest.TestCase):
     """What the agent is told of the nodes, by a pretended service manager."""
 
@@ -143,7 +194,7 @@ class Adoption(unittest.TestCase):
     """A machine that is given its channel follows the depot that its key names."""
 
     def adopt(self, folder, key):
-        (folder / "node.key").write_text(key)
+        (folder / "HDMI-A-1.key").write_text(key)
         script = (IMAGE / "adopt").read_text()
         for path in ("/var/lib/aquarama", "/etc/aquarama"):
             self.assertIn(path, script)
@@ -156,8 +207,9 @@ class Adoption(unittest.TestCase):
         with tempfile.TemporaryDirectory() as temporary:
             folder = Path(temporary)
             self.adopt(folder, 'rig: "hall"\ndepot_address: "tcp://192.168.7.1:7403"\n')
-            self.assertEqual((folder / "follow.conf").read_text(), f'FOLLOW="--key {folder}/node.key"\n')
+            self.assertEqual((folder / "follow.conf").read_text(), f'FOLLOW="--key {folder}/HDMI-A-1.key"\n')
             self.assertEqual((folder / "calls").read_text(), "start --no-block aquarama-follow\n")
+            self.adopt(folder, 'rig: "hall"\ndepot_address: "tcp://192.168.7.1:7403"\n')
             self.adopt(folder, 'rig: "hall"\n')
             self.assertFalse((folder / "follow.conf").exists())
             self.assertEqual(len((folder / "calls").read_text().splitlines()), 1)

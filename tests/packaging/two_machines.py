@@ -74,11 +74,11 @@ class Hall:
 
     def code(self):
         """Nobody reads the screen here: a node without windows says its code in its log."""
-        self.spare.tell("sed -i 's/--wait-for-key/& --headless/' /etc/aquarama/nodes/waiting.conf; "
-                        "systemctl restart aquarama-node@waiting")
+        self.spare.tell("sed -i 's/--wait-for-key/& --headless/' /etc/aquarama/nodes/Virtual-1.conf; "
+                        "systemctl restart aquarama-node@Virtual-1")
         found = wait_until(lambda: re.findall(r"as ([A-Z]), code (\S+)", self.spare.tell(
-            "journalctl -b --no-pager -u aquarama-node@waiting")), MOST_SECONDS, "a code")
-        self.spare.tell("sed -i 's/ --headless//' /etc/aquarama/nodes/waiting.conf")
+            "journalctl -b --no-pager -u aquarama-node@Virtual-1")), MOST_SECONDS, "a code")
+        self.spare.tell("sed -i 's/ --headless//' /etc/aquarama/nodes/Virtual-1.conf")
         return found[-1]
 
     def assign(self):
@@ -88,7 +88,7 @@ class Hall:
         assert "this is not the code on its screen" in wrong, wrong
         said = self.master.tell(f"aquarama-hall nodes assign hall.txtpb {letter} right {code} 2>&1", 600)
         print("assigned:", said.strip(), flush=True)
-        self.spare.tell("systemctl restart aquarama-node@waiting")  # with its window again
+        self.spare.tell("systemctl restart aquarama-node@Virtual-1")  # with its window again
 
     # --- releases
 
@@ -125,10 +125,8 @@ class Hall:
         wait_until(lambda: re.search(what, self.status()), MOST_SECONDS, f"{what}: {self.status()}")
 
     def begin_depot(self):
-        follow = "FOLLOW=\"--depot tcp://192.168.7.1:7403 --key {}\""
-        for machine, key in ((self.master, "/etc/aquarama/keys/hall/crew.key"),
-                             (self.spare, "/var/lib/aquarama/node.key")):
-            machine.tell(f"echo '{follow.format(key)}' >/etc/aquarama/follow.conf; "
+        """The second machine has begun to follow when it was given its channel."""
+        self.master.tell("echo 'FOLLOW=\"--key /etc/aquarama/keys/hall/crew.key\"' >/etc/aquarama/follow.conf; "
                          "echo 'DEPOT=\"--frames 20 --seconds 900\"' >/etc/aquarama/depot.conf; "
                          "install -d -o aquarama -g aquarama /var/lib/aquarama/releases; sync; "
                          "systemctl start aquarama-depot aquarama-follow")
@@ -154,7 +152,6 @@ class Hall:
         self.make_release("9.1")
         self.power_on(self.master)
         self.await_shown(self.master, "left", "middle")
-        self.begin_depot()
         self.activate("9.1", cuts)
         self.await_status(r"all run 9\.1")
         self.await_shown(self.master, "left", "middle")
@@ -193,6 +190,7 @@ def main(image, pictures, screens, key, cuts="2"):
             hall.keep(hall.spare, "spare")
             hall.keep(hall.master, "hall-without-right")
             assert not hall.shows(hall.master, "right"), "two machines show one channel"
+            hall.begin_depot()
             hall.spare.cut_power()
             hall.power_on(hall.spare)
             hall.await_shown(hall.spare, "right")
