@@ -140,8 +140,8 @@ class ThreeMonitors(unittest.TestCase):
         rig.write_text(re.sub(r"mode: WINDOW[^}]*", lambda _: f"mode: FULLSCREEN {next(names)} ", rig.read_text()))
         return rig
 
-    def start_node(self, channel, rig, log=None):
-        command = [BIN / "aquarama-node", channel, "--master", control_address(rig), "--trace", self.folder.name]
+    def start_node(self, channel, rig, log=None, more=()):
+        command = [BIN / "aquarama-node", channel, "--master", control_address(rig), "--trace", self.folder.name, *more]
         with open(log or os.devnull, "w") as output:
             self.processes.append(subprocess.Popen(command, env=self.display.environment, cwd=ROOT,
                                                    stdout=subprocess.DEVNULL, stderr=output))
@@ -199,6 +199,27 @@ class ThreeMonitors(unittest.TestCase):
                                "this machine has several monitors (DUMMY0, DUMMY1, DUMMY2); name the channel's")):
             self.assertEqual(self.start_node(channel, rig, log).wait(60), 1)
             self.assertIn(said, log.read_text())
+
+    def test_each_of_two_nodes_without_a_key_shows_its_letter_on_its_monitor(self):
+        for place in (0, 2):
+            self.processes.append(subprocess.Popen(
+                [BIN / "aquarama-node", "--key", Path(self.folder.name, f"{place}.key"), "--wait-for-key", "--connector",
+                 f"DUMMY{place}"], env=self.display.environment, stdout=subprocess.DEVNULL))
+
+        def picture(place):
+            _, _, pixel = self.display.screenshot()
+            return [pixel(SIZE[0] * place + x, y) for y in range(0, SIZE[1] // 2, 4) for x in range(0, SIZE[0], 4)]
+        is_lit = lambda place: any(min(colour) > 200 for colour in picture(place))
+        wait_until(lambda: is_lit(0) and is_lit(2), 60, "two letters")
+        self.assertFalse(is_lit(1))
+        wait_until(lambda: picture(0) != picture(2), 30, "two letters that differ")
+
+    def test_a_channel_fills_the_monitor_that_its_machine_has_for_it(self):
+        rig = self.rig(f'connector: "DUMMY{place}"' for place in range(3))
+        self.processes.append(start("master", rig, "--pattern", "grid"))
+        self.start_node("left", rig, more=("--connector", "DUMMY2"))
+        wait_until(lambda: self.frames("left") >= 3, 60, "its frames")
+        self.assertEqual(self.display.window_of("left"), (2 * SIZE[0], 0, *SIZE))
 
     def test_a_node_is_black_until_its_first_frame(self):
         # Its master makes no frame as long as a node of a lockstep show is missing.
