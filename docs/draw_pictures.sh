@@ -68,6 +68,7 @@ declare -A way=(
     [televisions_reef.webp]=televisions
     [televisions_hall.webp]=televisions
     [console_calibration.png]=console
+    [console_tour.png]=console
     [console_waiting.png]=waiting
     [node_card.png]=node_card
 )

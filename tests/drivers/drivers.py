@@ -162,13 +162,39 @@ def try_driver(name):
     return found
 
 
+# 60, 2400, 100 000 and 250 000 fish, on three channels of a theatre and on eight of 4K.
+TIMED = [f"{wall}/{sea}/high" for wall in ("theatre", "eight_4k")
+         for sea in ("reef_1998", "bait_ball_2400", "bait_ball_100000", "bait_ball_250000")]
+
+
+def print_times():
+    """The processor's time of a frame by stage, with a card that takes none; returns what is wrong."""
+    with tempfile.TemporaryDirectory() as temporary:
+        said = subprocess.run([BIN / "aquarama_gpu_bench", "--out", temporary, "--only", *TIMED], capture_output=True,
+                              text=True, cwd=ROOT, env=os.environ | DRIVERS["navi21"][1])
+    shown = 0
+    for line in said.stdout.splitlines():
+        if frame := re.match(r"(gpu/\S+) +frame .*cpu +(\S+) ms", line):
+            print(f"{frame[1]}: {frame[2]} ms of the processor a frame", flush=True)
+            shown += 1
+        elif stage := re.match(r" +(.+?) +\S+ ms, without pixels .*; cpu +(\S+);", line):
+            print(f"    {stage[1]:<14} {stage[2]} ms")
+    return [] if shown == len(TIMED) else [f"{shown} of {len(TIMED)} walls were timed: {said.stderr[-500:]}"]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--soak", action="store_true", help="all drivers, not the first alone")
+    parser.add_argument("--soak", action="store_true", help="all drivers, not the first alone, and times")
     parser.add_argument("--only", nargs="+", choices=DRIVERS, help="these drivers")
     options = parser.parse_args()
     names = options.only or (list(DRIVERS) if options.soak else ["navi21"])
-    sys.exit(1 if sum((try_driver(name) for name in names), []) else 0)
+    found = sum((try_driver(name) for name in names), [])
+    if options.soak:
+        times = print_times()
+        for problem in times:
+            print(f"WRONG: {problem}")
+        found += times
+    sys.exit(1 if found else 0)
 
 
 if __name__ == "__main__":

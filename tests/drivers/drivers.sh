@@ -6,7 +6,8 @@
 # and each tier on a Radeon RX 6800 (NAVI21). Demanded are: no message of OpenGL, no vector register spilled, shaders
 # that Khronos' glslang takes too, and no more storage blocks and textures a stage than other drivers have.
 #   --soak       the same with the driver's other compiler, on integrated graphics of two generations, on a Radeon RX
-#                7900, on Vulkan by zink with its validation layers, and on llvmpipe
+#                7900, on Vulkan by zink with its validation layers, and on llvmpipe; then the processor's time of a
+#                frame by stage, for 60 to 250 000 fish (needs the packages of test.txt, and builds the bench)
 #   --only NAME  one of these: --help lists them
 # Ends with status 1 where a claim does not hold. Where there are no such drivers: with 77, in CI with 1.
 set -euo pipefail
@@ -18,6 +19,11 @@ fi
 if [ ! -e $shim ]; then
     echo "SKIPPED: no drivers without cards here; they need Debian 13, packaging/packages/drivers.txt" >&2
     [ -z "${CI:-}" ] && exit 77 || exit 1
+fi
+if [ "${1:-}" = --soak ] && [ ! -x "${AQUARAMA_BIN:-build/show/bin}/aquarama_gpu_bench" ]; then
+    packaging/install-packages.sh packaging/packages/test.txt
+    cmake --preset show-tests >/dev/null
+    cmake --build --preset show-tests --target aquarama_gpu_bench >/dev/null
 fi
 export AQUARAMA_BIN=${AQUARAMA_BIN:-$PWD/build/show/bin}
 exec python3 tests/drivers/drivers.py "$@"

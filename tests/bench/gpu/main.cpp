@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures a graphics card without a display: three walls, five seas, the tiers, and the golden
+// Measures a graphics card without a display: three walls, six seas, the tiers, and the golden
 // pictures; or what software OpenGL takes for the desk. tests/bench/gpu.sh bundles it for machines
 // that have nothing else of ours.
 #include <algorithm>
@@ -85,6 +85,7 @@ struct SeaChoice {
 const SeaChoice kSeas[]{{"reef_1998", "reef_1998", std::nullopt},
                         {"reef", "reef", std::nullopt},
                         {"reef_full", "reef_full", std::nullopt},
+                        {"bait_ball_2400", "bait_ball", 2'400},
                         {"bait_ball_100000", "bait_ball", 100'000},
                         {"bait_ball_250000", "bait_ball", 250'000}};
 
