@@ -127,7 +127,11 @@ std::string depotOf(const FollowOptions& options) {
     if (address.empty() && !options.key.empty())
         address = config::readKeyFile(options.key).depotAddress;
     if (address.empty())
-        throw Error("the key names no depot: its rig had none; name it with --depot");
+        throw Error(options.key.empty()
+                        ? "there is no key that names the depot; name it with --depot"
+                        : options.key +
+                              ": names no depot, as its rig had none when the key "
+                              "was made; name it with --depot");
     return address;
 }
 

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -107,8 +108,10 @@ class Tour {
     explicit Tour(const TourOptions& options)
         : rig_{options.rig}, file_{tourFileOf(options.rig)}, record_{readTour(file_)} {
         if (options.backup.empty()) return;
-        record_.backupFolder = std::filesystem::absolute(options.backup).string();
-        record_.backupWrittenAt = 0;
+        update([&](TourRecord& record) {
+            record.backupFolder = std::filesystem::absolute(options.backup).string();
+            record.backupWrittenAt = 0;
+        });
     }
 
     // The hall as it is now.
@@ -136,7 +139,7 @@ class Tour {
         for (const TourStep& step : tourSteps()) {
             const StepFinding finding = findingOf(step, view);
             const bool isDone = finding.state == StepState::Done;
-            if (!isAhead) note(step, isDone);
+            if (!isAhead) note(step, view, isDone);
             isAhead = isAhead || !isDone;
             steps.push_back({{"name", step.name},
                              {"state", nameOf(finding.state)},
@@ -155,8 +158,10 @@ class Tour {
         const StepFinding finding = findingOf(*step, look());
         if (finding.state != StepState::ToConfirm || finding.what != found)
             throw Error(name + ": has found by now: " + finding.what + "; look again");
-        record_.steps[name].confirmed = found;
-        note(*step, true);
+        update([&](TourRecord& record) {
+            record.steps[name].confirmed = found;
+            noteLook(record.steps[name], systemSeconds(), true);
+        });
     }
 
     // Goes through all steps that are not done, in their order, until somebody leaves. `view`: the
@@ -165,7 +170,7 @@ class Tour {
         Answers answers;
         for (const TourStep& step : tourSteps()) {
             if (findingOf(step, view).state == StepState::Done) {
-                note(step, true);
+                note(step, view, true);
                 continue;
             }
             if (work(step, answers) == Answer::Leave) return;
@@ -177,7 +182,7 @@ class Tour {
     bool repeat(const std::string& name) {
         Answers answers;
         const auto step = std::ranges::find(tourSteps(), name, &TourStep::name);
-        record_.steps[name] = {};
+        update([&](TourRecord& record) { record.steps[name] = {}; });
         work(*step, answers);
         return record_.steps[name].doneAt > 0;
     }
@@ -189,15 +194,15 @@ class Tour {
         for (;;) {
             const TourView view = look();
             const StepFinding finding = findingOf(step, view);
-            record_.backupWrittenAt = std::max(record_.backupWrittenAt, view.backup.writtenAt);
-            note(step, finding.state == StepState::Done);
+            note(step, view, finding.state == StepState::Done);
             sayFinding(step, finding);
             if (finding.state == StepState::Done) return Answer::Yes;
             const Answer answer = ask(step, finding, answers);
-            if (answer == Answer::Yes && finding.state == StepState::ToConfirm)
-                record_.steps[step.name].confirmed = finding.what;
-            if (answer == Answer::Next) record_.steps[step.name].lookedAt = 0;
-            keepTour(file_, record_);
+            update([&](TourRecord& record) {
+                if (answer == Answer::Yes && finding.state == StepState::ToConfirm)
+                    record.steps[step.name].confirmed = finding.what;
+                if (answer == Answer::Next) record.steps[step.name].lookedAt = 0;
+            });
             if (answer != Answer::Yes) return answer;
         }
     }
@@ -208,9 +213,18 @@ class Tour {
         return answers.await();
     }
 
-    void note(const TourStep& step, bool isDone) {
-        noteLook(record_.steps[step.name], systemSeconds(), isDone);
+    // Changes what is on the disk now: the console may look at the same hall.
+    void update(const std::function<void(TourRecord&)>& change) {
+        record_ = readTour(file_);
+        change(record_);
         keepTour(file_, record_);
+    }
+
+    void note(const TourStep& step, const TourView& view, bool isDone) {
+        update([&](TourRecord& record) {
+            record.backupWrittenAt = std::max(record.backupWrittenAt, view.backup.writtenAt);
+            noteLook(record.steps[step.name], systemSeconds(), isDone);
+        });
     }
 
     // "[x] 3 channels      2 min  left on left-pc"

@@ -36,12 +36,13 @@ void Errands::wantReleases(int ticks) {
     asking_ = std::async(std::launch::async, work_.releasesOf, state_.rigFile);
 }
 
-// The doctor takes a while, so the pause begins at the end.
+// The doctor takes a while, so the pause begins at the end. Not beside a word of the crew: the look
+// would not know it.
 void Errands::wantTour(int ticks) {
     constexpr int kTicksBetween = 50;
     if (touring_.valid()) {
         touringDue_ = ticks + kTicksBetween;
-    } else if (!state_.tour || ticks >= touringDue_) {
+    } else if (!errand_.valid() && (!state_.tour || ticks >= touringDue_)) {
         touring_ = std::async(std::launch::async, work_.tourOf, state_.rigFile);
     }
 }

@@ -284,7 +284,6 @@ browser::Hours Opening::hours(UnixSeconds now) const {
     message.set_problem(problem_);
     message.set_present(hours_.has_value());
     message.set_next("stays");
-    message.set_on_battery(isOnBattery());
     if (!hours_) return message;
     *message.mutable_form() = form_;
     const config::WantedHours wanted = wantedIn(now);

@@ -47,6 +47,8 @@ class Opening {
     // within four hours goes on with the same day.
     [[nodiscard]] bool isDayToEnd() const { return isDayToEnd_; }
     void dayEnded();
+    // Whether the hall runs on battery.
+    [[nodiscard]] bool isOnBattery() const;
     // Whether the wall is off on purpose.
     [[nodiscard]] bool isClosed(UnixSeconds now) const;
 
@@ -63,7 +65,6 @@ class Opening {
 
   private:
     [[nodiscard]] config::WantedHours wantedIn(UnixSeconds now) const;
-    [[nodiscard]] bool isOnBattery() const;
     void watchProjectors();
     [[nodiscard]] bool opensAgainSoon(UnixSeconds now) const;
     [[nodiscard]] bool isLampWanted(UnixSeconds now) const;

@@ -31,7 +31,8 @@ browser::Tour tourIn(const std::string& text) {
 // The exit status is 1 while something is to be done.
 browser::Tour tourOf(const std::string& rigFile) {
     const Said said = runAquarama({"tour", rigFile, "--json"}, true);
-    if (said.text.starts_with('{')) return tourIn(said.text);
+    for (const std::string& line : linesOf(said.text))
+        if (line.starts_with('{')) return tourIn(line);
     browser::Tour tour;
     tour.set_problem(lastLineOf(said, "aquarama tour does not answer"));
     return tour;

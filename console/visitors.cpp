@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 #include <utility>
 
 #include "common/machine/machine_power.h"
@@ -38,6 +39,8 @@ web::Payload framed(int channel, const v1::FramePicture& picture) {
 
 // One of the topics of its look.
 bool Visitor::wants(const char* topic) const {
+    // Findings of the tour quote files that may hold passwords.
+    if (std::string_view(topic) == "tour" && holder.role != ConsoleRole::Crew) return false;
     const auto& topics = look.topics();
     return std::ranges::find(topics, topic) != topics.end();
 }
@@ -68,6 +71,7 @@ void Visitors::sendWall(std::uint64_t refused) {
     const UnixSeconds now = unixNow();
     state_.wall.set_now_s(now);
     state_.wall.set_held_until_s(state_.opening.heldUntil(now));
+    state_.wall.set_on_battery(state_.opening.isOnBattery());
     state_.wall.set_watching(static_cast<std::uint32_t>(visitors_.size()));
     state_.wall.set_refused_requests(refused);
     const DrawingCounts drawings = state_.drawings.counts();

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # try-image.sh [RELEASE]: the image for a stick shows a wall of three channels, installs itself on an empty disk, starts
 # from there, and returns from a broken release to the one before, in an emulated machine. Before that, the boot loader
-# alone obeys the entries of the image (tests/packaging/boot_loader.py).
+# alone obeys the entries of the image (tests/packaging/boot_loader.py); after it, a second machine waits for its
+# channel, and both take releases (tests/packaging/two_machines.py).
 #
 # Takes the packages that packaging/try-packages.sh RELEASE has left in build/debs/RELEASE (trixie by default), and
 # makes an image with a hall of three windows of 160 x 120 pixels with a test pattern. QEMU starts it with UEFI,
@@ -133,7 +134,8 @@ keep_screen() {
 
 make_hall
 openssl genpkey -algorithm ed25519 -out "$work/show.key"
-packaging/build-image --hall "$work/hall" --key "$work/show.key" --words "console=ttyS0 systemd.journald.forward_to_console=1" "$release"
+packaging/build-image --hall "$work/hall" --key "$work/show.key" \
+    --words "console=ttyS0 systemd.journald.forward_to_console=1" "$release"
 
 # On the stick, as it is.
 image=$(ls build/image/aquarama-*.img)

@@ -36,12 +36,12 @@ build() {
     logged "build-debs failed" "$root" "packaging/build-debs /debs/now"
     say "packages for the build $((installed - start)) s, build $((SECONDS - installed)) s"
     logged "build-debs --version failed" "$root" "packaging/build-debs --version $version_before /debs/before"
-    logged "lintian found something" "$root" \
-        "useradd reader && runuser -u reader -- lintian --fail-on error,warning /debs/now/*.changes"
-    say "lintian is content"
     rm -rf "$debs"
     mkdir -p "$debs"
     cp -rt "$debs" "$root"/debs/{now,before}
+    logged "lintian found something" "$root" \
+        "useradd reader && runuser -u reader -- lintian --fail-on error,warning /debs/now/*.changes"
+    say "lintian is content"
     rm -rf --one-file-system "$root"
 }
 

@@ -16,11 +16,11 @@ std::filesystem::path powerFolder() {
     return chosen != nullptr ? chosen : "/run/aquarama/power";
 }
 
-// For a service without access to the folder, it is read-only.
 std::filesystem::path batteryMark() {
     return powerFolder() / "on-battery";
 }
 
+// For a service without access to the folder, it is read-only.
 bool takesPowerWord(const std::filesystem::path& folder) {
     return std::filesystem::is_directory(folder) && access(folder.c_str(), W_OK | X_OK) == 0;
 }

@@ -25,7 +25,7 @@ function headline() {
   if (link.isStale) return ['◌', t('head.stale'), 'bad'];
   if (!wall.heard && wall.preparing) return ['◔', t('head.preparing'), 'warn'];
   if (!wall.heard) return ['✖', t('head.noMaster'), 'bad'];
-  if (link.known.hours?.onBattery) return ['▲', t('head.battery'), 'warn'];
+  if (wall.onBattery) return ['▲', t('head.battery'), 'warn'];
   if (wall.heldUntilS > 0) return ['▲', t('head.held'), 'warn'];
   if (shown.black && link.known.hours?.present && !link.known.hours.open) return ['○', t('head.closed'), 'quiet'];
   if (shown.black) return ['■', t('head.black'), 'warn'];

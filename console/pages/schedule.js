@@ -183,7 +183,7 @@ function standing(link) {
   const next = t(`hours.${hours.next ?? 'stays'}`, {at: hours.nextAt, scene: hours.nextScene ? word(hours.nextScene)
     : t('hours.sceneAsItWas')});
   return html`<section class="panel"><h2>${t('page.schedule')}</h2>
-    <p role="status">${hours.onBattery
+    <p role="status">${link.wall.onBattery
       ? html`<strong class="warn">▲ ${t('hours.onBattery')}</strong>` : held
       ? html`<strong class="warn">▲ ${t('hours.held', {time: time(link.wall.heldUntilS)})}</strong>`
       : hours.problem ? html`<strong class="bad">✖ ${t('hours.unreadable')}</strong> ${hours.problem}`

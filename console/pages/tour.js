@@ -26,6 +26,8 @@ const row = (link, step, isNext) => {
 export const tourPage = {
   look: () => ({topics: ['tour']}),
   view: link => {
+    if (!link.may('CREW')) return html`<section class="panel"><h2>${t('page.tour')}</h2><p
+      class="note">${t('people.crewOnly')}</p></section>`;
     const {steps = [], seconds = 0, problem} = link.known.tour ?? {};
     const next = steps.findIndex(({state}) => state !== 'done');
     const doneCount = steps.filter(({state}) => state === 'done').length;

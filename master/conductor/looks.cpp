@@ -274,7 +274,8 @@ std::optional<net::Moment> ShowKeeper::writesSince(const v1::WantedShow& change)
         wire::apply(changed, change);
         return wire::areSame(changed, show);
     };
-    if (!has(newest_) || has(tried_)) return std::nullopt;
+    const bool stays = has(tried_) && has(begun_);
+    if (!has(newest_) || stays) return std::nullopt;
     return begunAt_;
 }
 

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """halls_table.py ANSWERS TEXTFILE: prints what the doctor of each hall said as a table, the worst first, and writes the
 same for Prometheus.

@@ -29,10 +29,7 @@ void MonitorWindows::DestroyWindow::operator()(GLFWwindow* window) const {
 
 MonitorWindows::MonitorWindows(std::string title, std::string connector)
     : title_{std::move(title)}, connector_{std::move(connector)} {
-    if (!connector_.empty()) static_cast<void>(requireMonitor(connector_));
     open();
-    if (windows_.empty())
-        throw Error("this machine has no monitor; connect one, or use --headless");
 }
 
 std::vector<GLFWmonitor*> MonitorWindows::monitorsNow() const {

@@ -20,9 +20,10 @@ namespace aquarama::gl {
 // Of the main thread; only one window context may exist at a time, and these are it.
 class MonitorWindows {
   public:
-    // On the monitor at this connector alone; empty: on all. Throws Error where no window can be
-    // opened.
+    // On the monitor at this connector alone; empty: on all. Where there is none, it is waited for.
+    // Throws Error where no window can be opened.
     MonitorWindows(std::string title, std::string connector);
+    [[nodiscard]] bool isSeen() const { return !windows_.empty(); }
     // Handles events for so long. True: somebody has pressed q or Escape, or has closed a window.
     [[nodiscard]] bool pumpEvents(std::chrono::milliseconds atMost);
     // Draws in each window, whose context is current for `paint`, and shows it. Monitors that have

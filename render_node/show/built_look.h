@@ -58,6 +58,7 @@ class BuiltLook {
     void chooseQuality();
     // Measured time of a frame without fish at this tier; builds the picture for it.
     [[nodiscard]] double secondsAFrame(config::QualityTier quality);
+    // The world at noon, or grey where there is none or no light.
     void drawEmpty();
     // Throws Error where what drawEmpty() leaves is black, and the channel lights something. A
     // driver may accept all and draw nothing; that must not count as a show. One that executes

@@ -24,7 +24,11 @@ using namespace std::chrono_literals;
 class Board {
   public:
     Board(bool isHeadless, const std::string& connector) {
-        if (!isHeadless) windows_ = std::make_unique<gl::MonitorWindows>("Aquarama", connector);
+        if (isHeadless) return;
+        windows_ = std::make_unique<gl::MonitorWindows>("Aquarama", connector);
+        if (windows_->isSeen()) return;
+        logWarning("there is no monitor{}; the letter is on it once it is there",
+                   connector.empty() ? "" : " " + connector);
     }
     // True: somebody at the machine has ended it.
     [[nodiscard]] bool show(const enrol::NodeSign& sign) {

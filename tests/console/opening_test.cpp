@@ -306,7 +306,7 @@ TEST_F(OpeningOfProjectors, onBatteryNothingOpensAndLampsAreOffUntilTheMainsAreB
     std::ofstream{battery_};
     EXPECT_FALSE(opening.due(kTen)) << "its opening waits";
     EXPECT_TRUE(opening.isClosed(kTen));
-    EXPECT_TRUE(opening.hours(kTen).on_battery());
+    EXPECT_TRUE(opening.isOnBattery());
     opening.switchProjectors(kTen, true);
     fs::remove(battery_);
     ASSERT_TRUE(opening.due(kTen + 1));

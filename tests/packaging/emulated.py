@@ -16,8 +16,8 @@ from check_screen import MOST_SHARE, read_ppm, share_apart  # noqa: E402
 from check_pictures import read_png  # noqa: E402
 
 
-def called(*command, okay=(0,)):
-    done = subprocess.run([*map(str, command)], capture_output=True, text=True)
+def called(*command, okay=(0,), **more):
+    done = subprocess.run([*map(str, command)], capture_output=True, text=True, **more)
     assert done.returncode in okay, f"{command}: {done.stdout}{done.stderr}"
     return done.stdout
 
@@ -32,11 +32,15 @@ def wait_until(condition, seconds, what):
     return said
 
 
-class Machine:
-    """One of them, with a disk. `cable`: a file name for the wire between two; the first on it listens there."""
+def partitions(disk):
+    return json.loads(called("sfdisk", "--json", disk))["partitiontable"]["partitions"]
 
-    def __init__(self, folder, name, disk, cable):
-        self.folder, self.name, self.disk, self.cable = folder / name, name, disk, cable
+
+class Machine:
+    """One of them, with a disk. `ports`: of UDP, its own end of a cable and the other one."""
+
+    def __init__(self, folder, name, disk, ports):
+        self.folder, self.name, self.disk, self.ports = folder / name, name, disk, ports
         self.folder.mkdir()
         self.process = None
 
@@ -52,26 +56,39 @@ class Machine:
         listed = called("mdir", "-b", "-i", self.system(), "::loader/entries")
         return {line.rsplit("/", 1)[1] for line in listed.split()}
 
+    def data(self):
+        """Where e2fsprogs find the data partition."""
+        return f"{self.disk}?offset={512 * partitions(self.disk)[1]['start']}"
+
+    def grow(self, mebibytes):
+        """More room for data, before the first start."""
+        with open(self.disk, "r+b") as disk:
+            disk.truncate(disk.seek(0, 2) + (mebibytes << 20))
+        called("sfdisk", "-q", "-N", 2, self.disk, input=",+\n")
+        called("e2fsck", "-fp", self.data(), okay=(0, 1))
+        called("resize2fs", self.data())
+
     def put_in_data(self, folder, where):
         """Copies a folder into one of the data partition, while it is off."""
-        start = called("sfdisk", "--json", self.disk)
-        start = json.loads(start)["partitiontable"]["partitions"][1]["start"]
-        commands = [f"mkdir {where}", f"mkdir {where}/{folder.name}",
-                    *(f"write {file} {where}/{folder.name}/{file.name}" for file in sorted(folder.iterdir()))]
+        target = f"{where}/{folder.name}"
+        commands = [f"mkdir {target}", *(f"write {file} {target}/{file.name}" for file in sorted(folder.iterdir()))]
         (self.folder / "commands").write_text("\n".join(commands))
-        called("e2fsck", "-fp", f"{self.disk}?offset={512 * start}", okay=(0, 1))
-        called("debugfs", "-w", "-f", self.folder / "commands", f"{self.disk}?offset={512 * start}")
+        called("e2fsck", "-fp", self.data(), okay=(0, 1))
+        called("debugfs", "-w", "-f", self.folder / "commands", self.data())
+        for file in folder.iterdir():
+            there = called("debugfs", "-R", f"stat {target}/{file.name}", self.data())
+            assert f"Size: {file.stat().st_size}" in there, f"{file} is not in the data partition: {there}"
 
-    def power_on(self, listens):
+    def power_on(self):
         variables, serial, monitor, shell = (self.folder / name for name in ("vars", "serial", "monitor", "shell"))
         shutil.copy("/usr/share/OVMF/OVMF_VARS.fd", variables)
         drives = (f"if=pflash,format=raw,unit=0,readonly=on,file={FIRMWARE}",
                   f"if=pflash,format=raw,unit=1,file={variables}", f"file={self.disk},format=raw,if=virtio")
-        end = f"socket,id=wire,{'listen' if listens else 'connect'}=127.0.0.1:{self.cable}"
-        number = sum(self.name.encode()) % 256
+        end = "socket,id=wire,localaddr=127.0.0.1:{},udp=127.0.0.1:{}".format(*self.ports)
+        card = "virtio-net,netdev=wire,mac=52:54:00:00:{:02x}:{:02x}".format(*divmod(self.ports[0], 256))
         self.process = subprocess.Popen(
             ["qemu-system-x86_64", "-accel", "tcg,thread=multi", "-cpu", "max", "-smp", "2", "-m", "2500", "-display",
-             "none", "-vga", "std", "-netdev", end, "-device", f"virtio-net,netdev=wire,mac=52:54:00:00:00:{number:02x}",
+             "none", "-vga", "std", "-netdev", end, "-device", card,
              "-serial", f"file:{serial}", "-serial", f"unix:{shell},server,nowait",
              "-monitor", f"unix:{monitor},server,nowait",
              *(word for drive in drives for word in ("-drive", drive))])
@@ -82,6 +99,10 @@ class Machine:
             self.process.kill()
             self.process.wait()
         self.process = None
+
+    def log(self):
+        """What came by the first serial line since the power."""
+        return (self.folder / "serial").read_text(errors="replace")
 
     def since_power(self):
         return round(time.monotonic() - self.began)

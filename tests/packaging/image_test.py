@@ -115,7 +115,8 @@ class Entry(unittest.TestCase):
 class Channels(unittest.TestCase):
     """Which channels a machine has, by pretended connectors and service manager."""
 
-    def channels(self, word, mode, monitors=(), keys=(), files=()):
+    def channels(self, mode, monitors=(), keys=(), files=()):
+        """The names that are started, and the files of configuration afterwards."""
         with tempfile.TemporaryDirectory() as temporary:
             folder = Path(temporary)
             for name in ("nodes", "lib", "drm"):
@@ -132,35 +133,44 @@ class Channels(unittest.TestCase):
                 (folder / "nodes" / f"{name}.conf").write_text("NODE=own\n")
             script = (IMAGE / "channels").read_text()
             for old, new in (("/etc/aquarama/nodes", "nodes"), ("/var/lib/aquarama", "lib"),
-                             ("/sys/class/drm", "drm"), ("/proc/cmdline", "cmdline")):
+                             ("/sys/class/drm", "drm"), ("/proc/cmdline", "cmdline"), ("/proc/driver", "driver"),
+                             ("/run/aquarama-channels", "started")):
                 self.assertIn(old, script)
                 script = script.replace(old, str(folder / new))
-            for name, text in (("systemctl", 'echo "$*"'), ("systemd-escape", 'echo "$1"')):
+            for name, text in (("systemctl", 'echo "$*"'), ("udevadm", "true")):
                 (folder / name).write_text(f"#!/bin/sh\n{text}\n")
                 (folder / name).chmod(0o755)
-            said = subprocess.run(["sh", "-c", script, "channels", word], check=True, capture_output=True, text=True,
-                                  env=os.environ | {"PATH": f"{folder}:{os.environ['PATH']}"}).stdout.splitlines()
-            return said, {file.stem: file.read_text().replace(str(folder), "") for file in folder.glob("nodes/*")}
+
+            def said(word):
+                return subprocess.run(["sh", "-c", script, "channels", word], check=True, capture_output=True,
+                                      text=True, env=os.environ | {"PATH": f"{folder}:{os.environ['PATH']}"}
+                                      ).stdout.splitlines()
+            self.assertEqual(said("list") + said("stop"), [], "nothing was started")
+            started = said("start")
+            # A monitor that comes later, and a file that goes, are for the next start.
+            (folder / "drm/card0-DP-7/status").write_text("connected\n")
+            names = [line.removeprefix("start --no-block aquarama-node@") for line in started]
+            self.assertEqual(said("list"), names)
+            self.assertEqual(said("stop"), [f"stop aquarama-node@{name}" for name in names])
+            return names, {file.stem: file.read_text().replace(str(folder), "") for file in folder.glob("nodes/*")}
 
     def test_of_a_hall_are_those_of_its_files(self):
-        self.assertEqual(self.channels("list", "show", ["card0-HDMI-A-1"], files=["left", "right"])[0],
-                         ["left", "right"])
-        self.assertEqual(self.channels("stop", "show", files=["left"])[0], ["stop aquarama-node@left"])
-        self.assertEqual(self.channels("list", "show")[0], [])
+        self.assertEqual(self.channels("show", ["card0-HDMI-A-1"], files=["left", "right"])[0], ["left", "right"])
+        self.assertEqual(self.channels("show")[0], [])
 
     def test_of_a_machine_that_waits_are_its_monitors_and_what_it_was_given(self):
-        said, files = self.channels("start", "node", ["card0-HDMI-A-1", "card1-DP-2"], ["HDMI-A-3"], ["left"])
-        self.assertEqual(said, [f"start --no-block aquarama-node@{name}" for name in ("DP-2", "HDMI-A-1", "HDMI-A-3")])
+        names, files = self.channels("node", ["card0-HDMI-A-1", "card1-DP-2"], ["HDMI-A-3"], ["left"])
+        self.assertEqual(names, ["DP-2", "HDMI-A-1", "HDMI-A-3"])
         self.assertEqual(files["DP-2"], "NODE=--key /lib/DP-2.key --wait-for-key --connector DP-2\n")
 
-    def test_without_monitors_it_waits_for_them(self):
-        said, files = self.channels("list", "node")
-        self.assertEqual(said, ["any"])
+    def test_without_monitors_it_waits_for_them_and_stays_one(self):
+        names, files = self.channels("node")
+        self.assertEqual(names, ["any"])
         self.assertEqual(files["any"], "NODE=--key /lib/any.key --wait-for-key \n")
+        self.assertEqual(self.channels("node", ["card0-HDMI-A-1"], ["any"])[0], ["any"])
 
     def test_a_file_of_the_crew_stays(self):
-        self.assertEqual(self.channels("list", "node", ["card0-DP-2"], files=["DP-2"]),
-                         (["DP-2"], {"DP-2": "NODE=own\n"}))
+        self.assertEqual(self.channels("node", ["card0-DP-2"], files=["DP-2"]), (["DP-2"], {"DP-2": "NODE=own\n"}))
 
 
 class Frames(unittest.TestCase):
@@ -193,26 +203,58 @@ class Frames(unittest.TestCase):
 class Adoption(unittest.TestCase):
     """A machine that is given its channel follows the depot that its key names."""
 
-    def adopt(self, folder, key):
-        (folder / "HDMI-A-1.key").write_text(key)
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+        for name, text in (("systemctl", f'echo "$*" >>{self.folder}/calls'), ("sleep", "true")):
+            (self.folder / name).write_text(f"#!/bin/sh\n{text}\n")
+            (self.folder / name).chmod(0o755)
+        (self.folder / "release.pub").touch()
+
+    def adopt(self):
+        """What the script asks of the service manager."""
+        (self.folder / "calls").write_text("")
         script = (IMAGE / "adopt").read_text()
         for path in ("/var/lib/aquarama", "/etc/aquarama"):
             self.assertIn(path, script)
-            script = script.replace(path, str(folder))
-        (folder / "systemctl").write_text(f'#!/bin/sh\necho "$*" >>{folder}/calls\n')
-        (folder / "systemctl").chmod(0o755)
-        subprocess.run(["sh", "-c", script], check=True, env=os.environ | {"PATH": f"{folder}:{os.environ['PATH']}"})
+            script = script.replace(path, str(self.folder))
+        (self.folder / "adopt").write_text(script)
+        subprocess.run(["sh", self.folder / "adopt"], check=True,
+                       env=os.environ | {"PATH": f"{self.folder}:{os.environ['PATH']}"})
+        return (self.folder / "calls").read_text()
 
-    def test_where_its_key_names_one(self):
-        with tempfile.TemporaryDirectory() as temporary:
-            folder = Path(temporary)
-            self.adopt(folder, 'rig: "hall"\ndepot_address: "tcp://192.168.7.1:7403"\n')
-            self.assertEqual((folder / "follow.conf").read_text(), f'FOLLOW="--key {folder}/HDMI-A-1.key"\n')
-            self.assertEqual((folder / "calls").read_text(), "start --no-block aquarama-follow\n")
-            self.adopt(folder, 'rig: "hall"\ndepot_address: "tcp://192.168.7.1:7403"\n')
-            self.adopt(folder, 'rig: "hall"\n')
-            self.assertFalse((folder / "follow.conf").exists())
-            self.assertEqual(len((folder / "calls").read_text().splitlines()), 1)
+    def give(self, connector, depot=True):
+        named = 'depot_address: "tcp://192.168.7.1:7403"\n' if depot else ""
+        (self.folder / f"{connector}.key").write_text('rig: "hall"\n' + named)
+
+    def followed(self):
+        file = self.folder / "follow.conf"
+        return file.read_text().splitlines()[-1] if file.exists() else None
+
+    def line(self, connector):
+        return f'FOLLOW="--key {self.folder}/{connector}.key"'
+
+    def test_while_a_key_names_one(self):
+        self.give("DP-1", depot=False)
+        self.assertEqual((self.adopt(), self.followed()), ("", None))
+        self.give("HDMI-A-1")
+        self.assertEqual((self.adopt(), self.followed()),
+                         ("restart --no-block aquarama-follow\n", self.line("HDMI-A-1")))
+        self.assertEqual(self.adopt(), "", "nothing has changed")
+        self.give("DP-1")
+        (self.folder / "HDMI-A-1.key").unlink()
+        self.assertEqual((self.adopt(), self.followed()), ("restart --no-block aquarama-follow\n", self.line("DP-1")))
+        (self.folder / "DP-1.key").unlink()
+        self.assertEqual((self.adopt(), self.followed()), ("stop aquarama-follow\n", None))
+
+    def test_not_against_the_crew_and_not_where_the_image_takes_no_releases(self):
+        self.give("DP-1")
+        (self.folder / "follow.conf").write_text("FOLLOW=own\n")
+        self.assertEqual((self.adopt(), self.followed()), ("", "FOLLOW=own"))
+        (self.folder / "follow.conf").unlink()
+        (self.folder / "release.pub").unlink()
+        self.assertEqual((self.adopt(), self.followed()), ("", None))
 
 
 class Signature(unittest.TestCase):

@@ -1,8 +1,8 @@
-"""two_machines.py IMAGE PICTURES SCREENS KEY [CUTS]: a hall on one emulated machine, and a second one that waits for its
-channel; then releases for both.
+"""two_machines.py IMAGE PICTURES SCREENS KEY [CUTS]: a hall on one emulated machine, and a second one that waits for
+its channel; then releases for both.
 
-IMAGE has the hall of packaging/try-image.sh: its machine gives addresses to others. Both start from that image, the
-second by the entry "node". Its letter is found by the first, its code is typed there, and it takes the place of the
+IMAGE has the hall of packaging/try-image.sh: its machine gives addresses to others. Both have it on their disks, the
+second with the mode "node". Its letter is found by the first, its code is typed there, and it takes the place of the
 first one's right channel. It comes back with it after a power cut.
 
 Then a depot on the first brings releases to both: one that shows the wall, one whose nodes crash, one whose nodes hang,
@@ -21,10 +21,10 @@ import tempfile
 import time
 from pathlib import Path
 
-from emulated import Machine, called, picture, wait_until
+from emulated import ROOT, Machine, called, partitions, picture, wait_until
 
 MOST_SECONDS = 1800  # until a picture is there
-CABLE = 7490
+CABLE = {"master": (7490, 7491), "spare": (7491, 7490)}
 WIDTH = 160  # of a channel, in pixels
 # What becomes of aquarama-node in a release. A library that takes every call to draw, and draws nothing, makes black.
 FAULTS = {"9.2": "#!/bin/sh\nexit 1\n", "9.3": "#!/bin/sh\nexec sleep infinity\n",
@@ -38,18 +38,28 @@ __attribute__((constructor)) static void go_blind(void) { epoxy_glDrawArrays = n
 class Hall:
     def __init__(self, folder, image, pictures, screens, key):
         self.folder, self.screens, self.key = folder, screens, key
-        disks = {name: folder / f"{name}.img" for name in ("master", "spare")}
-        for disk in disks.values():
-            subprocess.run(["cp", "--sparse=always", image, disk], check=True)
-        self.master, self.spare = (Machine(folder, name, disk, CABLE) for name, disk in disks.items())
-        self.machines = (self.master, self.spare)
-        self.spare.write("loader/loader.conf", "timeout 0\ndefault aquarama-node.conf\n")
+        self.version = re.fullmatch(r"aquarama-(.*)\.img", image.name)[1]
+        self.master, self.spare = self.machines = [self.installed(image, *mode) for mode in
+                                                   (("master", "show"), ("spare", "node"))]
+        self.master.grow(4096)
         self.picture = {name: (picture(pictures / f"channel-{name}.png"), left * WIDTH)
                         for left, name in enumerate(("left", "middle", "right"))}
-        self.version = re.fullmatch(r"aquarama-(.*)\.img", image.name)[1]
 
-    def power_on(self, machine):
-        machine.power_on(listens=machine is self.master)
+    def installed(self, image, name, mode):
+        """A machine with the image on its disk, and the boot loader's entry that `install` writes there."""
+        disk = self.folder / f"{name}.img"
+        subprocess.run(["cp", "--sparse=always", image, disk], check=True)
+        machine = Machine(self.folder, name, disk, CABLE[name])
+        listed = called("mtype", "-i", machine.system(), f"::aquarama/{self.version}/SHA256SUMS").splitlines()[0]
+        words = re.search(r"^options .*aquarama\.data=\S+ (.*)$", called(
+            "mtype", "-i", machine.system(), "::loader/entries/aquarama-show.conf"), re.MULTILINE)[1]
+        entry = called(ROOT / "packaging/image/entry", self.version, mode, partitions(disk)[1]["uuid"].lower(),
+                       listed.split()[-1])
+        for other in machine.entries():
+            called("mdel", "-i", machine.system(), f"::loader/entries/{other}")
+        machine.write(f"loader/entries/aquarama-{self.version}+3.conf", entry.rstrip("\n") + words + "\n")
+        machine.write("loader/loader.conf", "timeout 0\n")
+        return machine
 
     def end(self):
         for machine in self.machines:
@@ -74,11 +84,12 @@ class Hall:
 
     def code(self):
         """Nobody reads the screen here: a node without windows says its code in its log."""
-        self.spare.tell("sed -i 's/--wait-for-key/& --headless/' /etc/aquarama/nodes/Virtual-1.conf; "
-                        "systemctl restart aquarama-node@Virtual-1")
+        self.spare.tell("cd /etc/aquarama/nodes; cp Virtual-1.conf kept; "
+                        "sed -i 's/--connector.*/--headless/' Virtual-1.conf; "
+                        "systemctl restart --no-block aquarama-node@Virtual-1")
         found = wait_until(lambda: re.findall(r"as ([A-Z]), code (\S+)", self.spare.tell(
             "journalctl -b --no-pager -u aquarama-node@Virtual-1")), MOST_SECONDS, "a code")
-        self.spare.tell("sed -i 's/ --headless//' /etc/aquarama/nodes/Virtual-1.conf")
+        self.spare.tell("cd /etc/aquarama/nodes; mv kept Virtual-1.conf")
         return found[-1]
 
     def assign(self):
@@ -88,7 +99,7 @@ class Hall:
         assert "this is not the code on its screen" in wrong, wrong
         said = self.master.tell(f"aquarama-hall nodes assign hall.txtpb {letter} right {code} 2>&1", 600)
         print("assigned:", said.strip(), flush=True)
-        self.spare.tell("systemctl restart aquarama-node@Virtual-1")  # with its window again
+        self.spare.tell("systemctl restart --no-block aquarama-node@Virtual-1")  # with its window again
 
     # --- releases
 
@@ -129,7 +140,7 @@ class Hall:
         self.master.tell("echo 'FOLLOW=\"--key /etc/aquarama/keys/hall/crew.key\"' >/etc/aquarama/follow.conf; "
                          "echo 'DEPOT=\"--frames 20 --seconds 900\"' >/etc/aquarama/depot.conf; "
                          "install -d -o aquarama -g aquarama /var/lib/aquarama/releases; sync; "
-                         "systemctl start aquarama-depot aquarama-follow")
+                         "systemctl start --no-block aquarama-depot aquarama-follow")
         self.await_status(f"all run {re.escape(self.version)}")
 
     def boots_of(self, machine):
@@ -144,13 +155,13 @@ class Hall:
             machine = random.choice(self.machines)
             machine.cut_power()
             print(f"{machine.name} loses its power: {sorted(machine.entries())}", flush=True)
-            self.power_on(machine)
+            machine.power_on()
         self.await_status("all machines have it")
         print(self.master.tell("aquarama-hall release go hall.txtpb 2>&1").strip(), flush=True)
 
     def take_releases(self, cuts):
         self.make_release("9.1")
-        self.power_on(self.master)
+        self.master.power_on()
         self.await_shown(self.master, "left", "middle")
         self.activate("9.1", cuts)
         self.await_status(r"all run 9\.1")
@@ -163,11 +174,13 @@ class Hall:
     def leave_again(self, version):
         self.master.cut_power()
         self.make_release(version)
-        self.power_on(self.master)
+        self.master.power_on()
         self.await_status(r"all run 9\.1")
         self.activate(version)
-        self.await_status(rf"release {re.escape(version)} was left")
+        self.await_status(rf"release {re.escape(version)} was left: \S+ has presented 0 of 20 frames")
         print(self.status(), flush=True)
+        if version == "9.4":
+            assert "draws a black picture" in self.spare.log(), "it was left for another reason"
         self.await_shown(self.master, "left", "middle")
         self.await_shown(self.spare, "right")
         assert {self.boots_of(machine) for machine in self.machines} == {"9.1"}
@@ -177,10 +190,10 @@ def main(image, pictures, screens, key, cuts="2"):
     with tempfile.TemporaryDirectory(prefix="aquarama-", dir="/var/tmp") as folder:
         hall = Hall(Path(folder), Path(image), Path(pictures), Path(screens), key)
         try:
-            hall.power_on(hall.master)
+            hall.master.power_on()
             hall.await_shown(hall.master, "left", "middle", "right")
             hall.keep(hall.master, "hall")
-            hall.power_on(hall.spare)
+            hall.spare.power_on()
             wait_until(hall.waiting, MOST_SECONDS, "the second machine waits for its channel")
             print(f"the second machine is found {hall.spare.since_power()} s after its power", flush=True)
             print(hall.spare.tell("networkctl --no-pager list; ip -4 -brief address").strip(), flush=True)
@@ -192,7 +205,7 @@ def main(image, pictures, screens, key, cuts="2"):
             assert not hall.shows(hall.master, "right"), "two machines show one channel"
             hall.begin_depot()
             hall.spare.cut_power()
-            hall.power_on(hall.spare)
+            hall.spare.power_on()
             hall.await_shown(hall.spare, "right")
             print("it comes back with its channel after a power cut", flush=True)
             hall.master.cut_power()

@@ -294,6 +294,18 @@ TEST_F(Keeping, itIsToldUntilWhenValuesAreBeingWritten) {
     EXPECT_TRUE(wire::areSame(wire::readKeptShow(path), dim));
 }
 
+// What is being written would take the old value away again.
+TEST_F(Keeping, whatIsThereButBeingReplacedIsWaitedFor) {
+    ShowKeeper keeper(path, black(false));
+    keeper.keep(black(true), {});
+    keeper.keep(black(false), {});
+    EXPECT_TRUE(keeper.writesSince(black(false)));
+    keeper.finish(black(false));
+    keeper.keep(black(false), {});
+    EXPECT_FALSE(keeper.writesSince(black(false)));
+    EXPECT_TRUE(wire::areSame(wire::readKeptShow(path), black(false)));
+}
+
 TEST_F(Keeping, aDiskThatTakesNothingIsNotWaitedFor) {
     std::ofstream(folder / "file") << "in the place of a folder";
     ShowKeeper keeper(folder / "file" / "desk.txtpb", {});
