@@ -10,6 +10,7 @@
 
 #include "common/base/files.h"
 #include "common/base/log.h"
+#include "common/config/calendar.h"
 #include "common/config/text_file.h"
 
 namespace aquarama::console {
@@ -87,6 +88,8 @@ void Opening::readDone() {
             done_ = {kept.at("open").get<bool>(),
                      kept.at("scene").get<std::string>(),
                      kept.at("quality").get<std::string>()};
+        doneAt_ = kept.value("done_at", 0.0);
+        findNextChange();
     } catch (const std::exception& problem) {
         logWarning("{}: {}; the wall is brought to its hours anew", path.string(), problem.what());
     }
@@ -110,6 +113,7 @@ void Opening::keep() const {
         kept["open"] = done_->isOpen;
         kept["scene"] = done_->scene;
         kept["quality"] = done_->quality;
+        kept["done_at"] = doneAt_;
     }
     const std::string text = kept.dump();
     keepIfPossible(folder_ / kDoneFile,
@@ -128,6 +132,7 @@ void Opening::setText(const std::string& text) {
     problem_.clear();
     hours_ = std::move(hours);
     form_ = std::move(form);
+    findNextChange();
     watchProjectors();
 }
 
@@ -160,11 +165,23 @@ bool Opening::isOnBattery() const {
     return std::filesystem::exists(batteryMark_, none);
 }
 
+// Of what was brought about; looked for once, as it may be months away.
+void Opening::findNextChange() {
+    constexpr int kDaysAhead = 366;
+    holdsUntil_ = 0;
+    if (!hours_ || doneAt_ == 0) return;
+    const auto change = config::changeAfter(*hours_, static_cast<long long>(doneAt_), kDaysAhead);
+    if (change) holdsUntil_ = static_cast<UnixSeconds>(change->at);
+}
+
 // What was brought about last is compared, not what the wall shows: an operator may have set that.
+// Over a closing and an opening that nobody was there for it holds no more, although they are the
+// same.
 std::optional<config::WantedHours> Opening::due(UnixSeconds now) const {
     if (!hours_ || heldUntil(now) > 0) return std::nullopt;
     const config::WantedHours wanted = wantedIn(now);
-    if (done_ == wanted || (wanted.isOpen && isOnBattery())) return std::nullopt;
+    const bool holds = done_ == wanted && (holdsUntil_ == 0 || now < holdsUntil_);
+    if (holds || (wanted.isOpen && isOnBattery())) return std::nullopt;
     return wanted;
 }
 
@@ -173,6 +190,8 @@ void Opening::done(const config::WantedHours& wanted, UnixSeconds now) {
     const bool isClosing = done_ && done_->isOpen && !wanted.isOpen;
     if (isClosing && !opensAgainSoon(now)) isDayToEnd_ = true;
     done_ = wanted;
+    doneAt_ = now;
+    findNextChange();
     keep();
 }
 

@@ -65,6 +65,7 @@ class Opening {
 
   private:
     [[nodiscard]] config::WantedHours wantedIn(UnixSeconds now) const;
+    void findNextChange();
     void watchProjectors();
     [[nodiscard]] bool opensAgainSoon(UnixSeconds now) const;
     [[nodiscard]] bool isLampWanted(UnixSeconds now) const;
@@ -87,6 +88,8 @@ class Opening {
     v1::Hours form_;       // the message of the text, where there are hours
     std::optional<config::Hours> hours_;
     std::optional<config::WantedHours> done_;  // what was last brought about
+    UnixSeconds doneAt_ = 0;                   // 0: not known
+    UnixSeconds holdsUntil_ = 0;  // the first change of the hours after that; 0: none is known
     bool isDayToEnd_ = false;
     UnixSeconds heldUntil_ = 0;
     UnixSeconds openSince_ = 0;

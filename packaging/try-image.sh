@@ -69,17 +69,6 @@ PoolOffset=100
 EmitDNS=no
 EmitRouter=no
 NETWORK
-    cat >"$units/keys.service" <<'UNIT'
-[Unit]
-After=aquarama-data.service
-Before=aquarama-master.service aquarama-channels.service
-ConditionPathExists=!/etc/aquarama/keys/hall
-
-[Service]
-Type=oneshot
-ExecStart=/usr/bin/aquarama-hall keys new hall.txtpb
-UNIT
-    ln -s ../keys.service "$units/aquarama.target.wants"
     # A shell of root at the second serial line.
     cat >"$units/shell.service" <<'UNIT'
 [Service]

@@ -117,7 +117,8 @@ ask_systemd() {
 try_guests() {
     logged "aquarama-guests cannot read the rig" "$root" "id aquarama-guests &&
         cd /etc/aquarama/rigs && runuser -u aquarama-guests -- sh -c 'cat hall.txtpb hall.mpcdi >/dev/null'"
-    ! in_system "$root" "id -nG aquarama-guests | tr ' ' '\n' | grep -qx aquarama" || fail "aquarama-guests is in the others' group"
+    ! in_system "$root" "id -nG aquarama-guests | tr ' ' '\n' | grep -qx aquarama" ||
+        fail "aquarama-guests is in the others' group"
     logged "no key is bundled" "$root" "aquarama-hall keys bundle hall.txtpb left &&
         test -s /etc/aquarama/rigs/left.key"
     local found

@@ -74,6 +74,23 @@ TEST_F(OpeningTest, aRestartInAnySecondGoesOnWithTheHours) {
     }
 }
 
+// What an operator set before a power cut at noon does not hold on the next day.
+TEST_F(OpeningTest, aNightWithoutPowerEndsWhatWasSetOnTheDayBefore) {
+    const std::string daily =
+        "zone: \"UTC\"\nopen { days: [THURSDAY, FRIDAY] from: \"09:00\" to: \"18:00\" }\n";
+    {
+        Opening opening(folder_);
+        opening.setText(daily);
+        opening.done(*opening.due(kTen), kTen);
+    }
+    const Opening restarted(folder_);
+    EXPECT_FALSE(restarted.due(kTen + 2 * kHour)) << "the same day";
+    EXPECT_TRUE(restarted.due(kTen + 9 * kHour)) << "is to be closed";
+    const auto next = restarted.due(kTen + 24 * kHour);
+    ASSERT_TRUE(next) << "is to be opened anew";
+    EXPECT_TRUE(next->isOpen);
+}
+
 TEST_F(OpeningTest, aHoldRestsItForServiceWorkAndEndsByItself) {
     Opening opening(folder_);
     opening.setText(kText);

@@ -1,5 +1,6 @@
 """After a power cut the wall is as the hours want it: master and console, killed and started again at other times."""
 
+import json
 import os
 import subprocess
 import time
@@ -64,6 +65,8 @@ class Comeback(ShowCase):
 
     def test_what_an_operator_set_holds_over_a_cut_until_the_hours_want_another_state(self):
         self.comes_back("2030-01-06 12:00:00", True)
+        done = self.console / "opening.json"
+        wait_until(lambda: done.exists() and json.loads(done.read_text()).get("open"), 30, "the console to have opened")
         self.assertEqual(aquarama("set", self.rig, "black", "on").returncode, 0)
         self.cut_power()
         self.power_on("2030-01-06 13:00:00")

@@ -111,18 +111,18 @@ class Machine:
         """What it shows; nothing where it cannot say so yet."""
         picture = self.folder / "screen.ppm"
         assert self.process.poll() is None, f"{self.name} has ended"
-        with socket.socket(socket.AF_UNIX) as monitor:
-            monitor.connect(str(self.folder / "monitor"))
-            monitor.sendall(f"screendump {picture}\n".encode())
-            time.sleep(2)
         try:
+            with socket.socket(socket.AF_UNIX) as monitor:
+                monitor.connect(str(self.folder / "monitor"))
+                monitor.sendall(f"screendump {picture}\n".encode())
+                time.sleep(2)
             return read_ppm(picture)
         except (OSError, ValueError):
             return None
 
     def keep_screen(self, file):
-        self.screen()
-        shutil.copy(self.folder / "screen.ppm", file)
+        if self.screen():
+            shutil.copy(self.folder / "screen.ppm", file)
 
     def shows(self, **channels):
         """Whether the screen has these pictures: where each begins, from the left."""

@@ -37,14 +37,14 @@ TEST(BuiltLook, isRefusedWhereTheDriverDrawsNothing) {
     }
 }
 
-// What a mask hides wholly has no light, whatever the driver does.
-TEST(BuiltLook, isTakenWhereTheChannelLightsNothing) {
+// Of what a mask leaves, a strip of ten rows, nothing may be seen in a small copy.
+TEST(BuiltLook, isTakenWhereTheChannelLightsNextToNothing) {
     Events events;
     CountingContext context{events, {480, 360}};
     session::Admission admission = admissionTo(wire::Pattern::Grey);
     const std::string mask =
         "masks { channel: \"middle\" picture { x_px: 0 y_px: 0 } picture { x_px: 480 y_px: 0 } "
-        "picture { x_px: 480 y_px: 360 } picture { x_px: 0 y_px: 360 } }";
+        "picture { x_px: 480 y_px: 350 } picture { x_px: 0 y_px: 350 } }";
     const auto bytes = std::as_bytes(std::span{mask});
     admission.rig.adjustments = "mask";
     admission.rig.files["mask"] =
