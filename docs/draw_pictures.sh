@@ -300,6 +300,9 @@ PYTHON
 console() {
     cmake --build --preset show-tests --target aquarama-console
     AQUARAMA_BIN=$PWD/$bin AQUARAMA_SHOTS=$drawn /usr/bin/python3 tests/console/pages_test.py
+    # Its first steps; below are the paths of the test.
+    /usr/bin/python3 -c "from PIL import Image
+Image.open('$drawn/console_tour.png').crop((0, 0, 1265, 655)).save('$drawn/console_tour.png')"
 }
 # Nodes without a key on the console's page, as its test has them.
 waiting() {
