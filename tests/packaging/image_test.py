@@ -2,6 +2,7 @@
 
 import os
 import shutil
+import socket
 import subprocess
 import tempfile
 import unittest
@@ -207,10 +208,13 @@ class Adoption(unittest.TestCase):
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
-        for name, text in (("systemctl", f'echo "$*" >>{self.folder}/calls'), ("sleep", "true")):
+        for name, text in (("systemctl", f'echo "$*" >>{self.folder}/calls'),
+                           ("channels", f'echo "channels $*" >>{self.folder}/calls')):
             (self.folder / name).write_text(f"#!/bin/sh\n{text}\n")
             (self.folder / name).chmod(0o755)
         (self.folder / "release.pub").touch()
+        self.depot = socket.create_server(("127.0.0.1", 0))
+        self.addCleanup(self.depot.close)
 
     def adopt(self):
         """What the script asks of the service manager."""
@@ -225,7 +229,7 @@ class Adoption(unittest.TestCase):
         return (self.folder / "calls").read_text()
 
     def give(self, connector, depot=True):
-        named = 'depot_address: "tcp://192.168.7.1:7403"\n' if depot else ""
+        named = f'depot_address: "tcp://127.0.0.1:{self.depot.getsockname()[1]}"\n' if depot else ""
         (self.folder / f"{connector}.key").write_text('rig: "hall"\n' + named)
 
     def followed(self):
@@ -246,7 +250,17 @@ class Adoption(unittest.TestCase):
         (self.folder / "HDMI-A-1.key").unlink()
         self.assertEqual((self.adopt(), self.followed()), ("restart --no-block aquarama-follow\n", self.line("DP-1")))
         (self.folder / "DP-1.key").unlink()
-        self.assertEqual((self.adopt(), self.followed()), ("stop aquarama-follow\n", None))
+        self.assertEqual((self.adopt(), self.followed()), ("stop aquarama-follow\nchannels start\n", None))
+
+    def test_not_before_the_depot_is_there_and_also_while_it_is_away(self):
+        self.give("DP-1")
+        address = self.depot.getsockname()
+        self.depot.close()
+        self.assertEqual((self.adopt(), self.followed()), ("", None))
+        self.depot = socket.create_server(address)
+        self.assertEqual(self.adopt(), "restart --no-block aquarama-follow\n")
+        self.depot.close()
+        self.assertEqual((self.adopt(), self.followed()), ("", self.line("DP-1")))
 
     def test_not_against_the_crew_and_not_where_the_image_takes_no_releases(self):
         self.give("DP-1")

@@ -136,12 +136,13 @@ class Hall:
         wait_until(lambda: re.search(what, self.status()), MOST_SECONDS, f"{what}: {self.status()}")
 
     def begin_depot(self):
-        """The second machine has begun to follow when it was given its channel."""
+        """The second machine follows it by itself, as its key names it."""
         self.master.tell("echo 'FOLLOW=\"--key /etc/aquarama/keys/hall/crew.key\"' >/etc/aquarama/follow.conf; "
                          "echo 'DEPOT=\"--frames 20 --seconds 900\"' >/etc/aquarama/depot.conf; "
                          "install -d -o aquarama -g aquarama /var/lib/aquarama/releases; sync; "
                          "systemctl start --no-block aquarama-depot aquarama-follow")
         self.await_status(f"all run {re.escape(self.version)}")
+        assert "Virtual-1.key" in self.spare.tell("cat /etc/aquarama/follow.conf")
 
     def boots_of(self, machine):
         return machine.tell("cat /usr/lib/aquarama/image/version").strip()
