@@ -162,12 +162,12 @@ config::WantedHours Opening::wantedIn(UnixSeconds now) const {
 // What cannot be asked is no battery.
 bool Opening::isOnBattery() const {
     std::error_code none;
-    return std::filesystem::exists(batteryMark_, none);
+    return !batteryMark_.empty() && std::filesystem::exists(batteryMark_, none);
 }
 
-// Of what was brought about; looked for once, as it may be months away.
+// Of what was brought about; looked for once, as it may be days away.
 void Opening::findNextChange() {
-    constexpr int kDaysAhead = 366;
+    constexpr int kDaysAhead = 8;  // of weekly hours
     holdsUntil_ = 0;
     if (!hours_ || doneAt_ == 0) return;
     const auto change = config::changeAfter(*hours_, static_cast<long long>(doneAt_), kDaysAhead);

@@ -26,7 +26,8 @@ class Opening {
         std::function<std::unique_ptr<SwitchedProjector>(const config::ControlledProjector&)>;
     // A file that cannot be read is logged, and there are no hours; hours() says why.
     // `make`: what switches a projector; tests have pretended ones. `batteryMark`: a file that is
-    // there while the hall runs on battery: then nothing opens, and projectors are off.
+    // there while the hall runs on battery: then nothing opens, and projectors are off. Empty:
+    // none.
     explicit Opening(std::filesystem::path folder,
                      MakeProjector make = {},
                      std::filesystem::path batteryMark = machine::batteryMark());

@@ -181,11 +181,12 @@ TwoDays run(const Habit& habit) {
     {
         Pretended odd{habit}, plain{{.name = "plain"}};
         std::vector<Quickened*> hall;
-        Opening opening(folder, [&](const config::ControlledProjector& one) {
+        const auto make = [&](const config::ControlledProjector& one) {
             auto made = std::make_unique<Quickened>(one.name == "odd" ? odd : plain, one.input);
             hall.push_back(made.get());
             return made;
-        });
+        };
+        Opening opening(folder, make, {});
         opening.setText(kHoursText);
         constexpr double kTick = 10;
         int heardBefore = 0;
