@@ -175,8 +175,8 @@ void Opening::findNextChange() {
 }
 
 // What was brought about last is compared, not what the wall shows: an operator may have set that.
-// Over a closing and an opening that nobody was there for it holds no more, although they are the
-// same.
+// That ends with the next change of the hours, also where this program did not run then: after a
+// night without power the wall opens anew.
 std::optional<config::WantedHours> Opening::due(UnixSeconds now) const {
     if (!hours_ || heldUntil(now) > 0) return std::nullopt;
     const config::WantedHours wanted = wantedIn(now);

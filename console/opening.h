@@ -66,7 +66,7 @@ class Opening {
 
   private:
     [[nodiscard]] config::WantedHours wantedIn(UnixSeconds now) const;
-    void findNextChange();
+    void findNextChange();  // after doneAt_
     void watchProjectors();
     [[nodiscard]] bool opensAgainSoon(UnixSeconds now) const;
     [[nodiscard]] bool isLampWanted(UnixSeconds now) const;

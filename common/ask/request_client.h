@@ -41,9 +41,9 @@ class RequestClient {
 
     // Gives an order once, and returns what has become of it so far.
     v1::OrderReply give(const v1::Order& order);
-    // Repeated until it is done, also through the minutes that a new scene may take; between
-    // that, `onWait` hears what is waited for, whenever it is another thing. Throws Error where it
-    // is refused, saying why. Returns the answer that it is done.
+    // Repeated until it is done, also through the minutes that a new scene may take. Meanwhile
+    // `onWait` hears what is waited for, each time that this is something else. Throws Error where
+    // the order is refused, saying why. Returns the last answer.
     v1::OrderReply carryOut(v1::Order order, const std::function<void(const std::string&)>& onWait);
 
     // Not answered, and lost where the connection does not stand yet. `yields`: to whoever steers

@@ -10,7 +10,8 @@ namespace aquarama::machine {
 
 // The folder for the word: AQUARAMA_POWER_FOLDER of the environment, or else /run/aquarama/power.
 [[nodiscard]] std::filesystem::path powerFolder();
-// The file there while the machine runs on battery; packaging/hall/aquarama-ups makes it.
+// The file that is in this folder while the machine runs on battery; packaging/hall/aquarama-ups
+// makes it.
 [[nodiscard]] std::filesystem::path batteryMark();
 // Whether the folder exists and this process may write into it.
 [[nodiscard]] bool takesPowerWord(const std::filesystem::path& folder);

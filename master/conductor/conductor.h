@@ -115,7 +115,7 @@ class Conductor final : private FrameSource {
     void giveKeyframe(const net::PeerId& peer);
     void giveChunk(const net::PeerId& peer, const v1::BlobRequest& request);
     void obey(const net::FromPeer& from, const v1::Order& order, net::Moment now);
-    // Has an order wait that is done, but not on the disk yet.
+    // Makes the answer *waiting* where what an order has set is not on the disk yet.
     void awaitDisk(const v1::WantedShow& change, v1::OrderReply& reply, net::Moment now);
     // The standby is to be the master from now on.
     [[nodiscard]] v1::OrderReply changeMaster(const std::string& user, const v1::Order& order);

@@ -23,6 +23,7 @@ class MonitorWindows {
     // On the monitor at this connector alone; empty: on all. Where there is none, it is waited for.
     // Throws Error where no window can be opened.
     MonitorWindows(std::string title, std::string connector);
+    // Whether there is a monitor with a window.
     [[nodiscard]] bool isSeen() const { return !windows_.empty(); }
     // Handles events for so long. True: somebody has pressed q or Escape, or has closed a window.
     [[nodiscard]] bool pumpEvents(std::chrono::milliseconds atMost);

@@ -20,6 +20,18 @@ namespace {
 // Height of an eye, below which noon may have no light.
 constexpr float kLitMetres = -40;
 
+// Whether the projector lights so much of the screen that a small copy of its picture shows it.
+bool lightsEnough(const wall::WarpMap& warp) {
+    constexpr float kSeen = 0.1F;
+    constexpr std::size_t kLeastShare = 20;  // one in so many pixels
+    std::size_t lit = 0;
+    for (std::size_t i = 0; i < warp.pointAndWeight.size(); ++i) {
+        const glm::vec3 blend = warp.blend.empty() ? glm::vec3(1) : warp.blend[i];
+        lit += warp.pointAndWeight[i].w * std::max({blend.r, blend.g, blend.b}) > kSeen ? 1 : 0;
+    }
+    return lit * kLeastShare > warp.pointAndWeight.size();
+}
+
 }  // namespace
 
 BuiltLook::BuiltLook(gl::Context& context, const std::string& channel, session::Admission admission)
@@ -77,27 +89,10 @@ void BuiltLook::chooseQuality() {
 void BuiltLook::drawEmpty() {
     wire::StateFrame frame;
     frame.eye.positionMetres = admission_.scene.eye;
-    const bool isDeep = admission_.scene.eye.y < kLitMetres;
-    if (!admission_.world || isDeep) frame.show.pattern = wire::Pattern::Grey;
+    if (!admission_.world) frame.show.pattern = wire::Pattern::Grey;
     picture_->drawScene(frame, Overlays{});
     picture_->project(targets_.front().framebuffer(), Encoding::Dithered8, Overlays{});
 }
-
-namespace {
-
-// Whether the projector lights so much of the screen that a small copy of its picture shows it.
-bool lightsEnough(const wall::WarpMap& warp) {
-    constexpr float kSeen = 0.1F;
-    constexpr std::size_t kLeastShare = 20;  // one in so many pixels
-    std::size_t lit = 0;
-    for (std::size_t i = 0; i < warp.pointAndWeight.size(); ++i) {
-        const glm::vec3 blend = warp.blend.empty() ? glm::vec3(1) : warp.blend[i];
-        lit += warp.pointAndWeight[i].w * std::max({blend.r, blend.g, blend.b}) > kSeen ? 1 : 0;
-    }
-    return lit * kLeastShare > warp.pointAndWeight.size();
-}
-
-}  // namespace
 
 bool BuiltLook::isTargetBlack() {
     constexpr int kWidthPixels = 64;
@@ -115,7 +110,8 @@ void BuiltLook::requireLight() {
     glClearNamedFramebufferfv(target, GL_COLOR, 0, kBlack.data());
     drawEmpty();
     if (!isExecuted) return logInfo("the driver executes nothing: there is no card");
-    if (isTargetBlack() && lightsEnough(wall_->warp(channel_)))
+    const bool hasLight = !admission_.world || admission_.scene.eye.y >= kLitMetres;
+    if (hasLight && isTargetBlack() && lightsEnough(wall_->warp(channel_)))
         throw Error("the driver draws a black picture (" + renderer_ +
                     "); install another version of it, or use another card");
 }

@@ -24,7 +24,7 @@ class BuiltLook {
     // Builds it on the calling thread and leaves its workspace current there. Without a prescribed
     // quality it measures which tier the node keeps up with. Throws Error: a channel that the rig
     // does not have or another size than the context's, a driver that cannot draw what is needed,
-    // or that draws nothing.
+    // or that draws black.
     BuiltLook(gl::Context& context, const std::string& channel, session::Admission admission);
     // May be destroyed on another thread, while no thread has the workspace current.
     ~BuiltLook();
@@ -58,11 +58,11 @@ class BuiltLook {
     void chooseQuality();
     // Measured time of a frame without fish at this tier; builds the picture for it.
     [[nodiscard]] double secondsAFrame(config::QualityTier quality);
-    // The world at noon, or grey where there is none or no light.
+    // The world at noon without fish, or grey where there is none.
     void drawEmpty();
-    // Throws Error where what drawEmpty() leaves is black, and the channel lights something. A
-    // driver may accept all and draw nothing; that must not count as a show. One that executes
-    // nothing at all, as it has no card, is for tests.
+    // Draws as drawEmpty(). Throws Error where the picture is black although there is light: a
+    // driver may accept all calls and draw nothing, and that must not count as a show. A driver
+    // that executes nothing at all has no card, and is for tests.
     void requireLight();
     [[nodiscard]] bool isTargetBlack();
 

@@ -21,7 +21,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from emulated import ROOT, Machine, called, partitions, picture, wait_until
+from emulated import ROOT, Machine, called, partitions, read_png, wait_until
 
 MOST_SECONDS = 1800  # until a picture is there
 CABLE = {"master": (7490, 7491), "spare": (7491, 7490)}
@@ -42,7 +42,7 @@ class Hall:
         self.master, self.spare = self.machines = [self.installed(image, *mode) for mode in
                                                    (("master", "show"), ("spare", "node"))]
         self.master.grow(4096)
-        self.picture = {name: (picture(pictures / f"channel-{name}.png"), left * WIDTH)
+        self.picture = {name: (read_png(pictures / f"channel-{name}.png"), left * WIDTH)
                         for left, name in enumerate(("left", "middle", "right"))}
 
     def installed(self, image, name, mode):
