@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tiers of quality, and the viewpoint from which the detail of a frame follows.
+// The tiers of quality.
 #pragma once
 
-#include <array>
 #include <cstddef>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
 
 #include "common/config/rig.h"
 #include "render_node/gl/program.h"
-#include "render_node/shaders/shader_interface.h"
-#include "render_node/surface/visibility.h"
 
 namespace aquarama::scene {
 
@@ -78,49 +71,5 @@ struct Quality {
 
 // All that a tier chooses.
 [[nodiscard]] Quality qualityOf(config::QualityTier tier);
-
-// The viewpoint of a frame, and its detail.
-
-// The index of the first limit that is greater than the range; the number of limits where none is.
-// Limits must ascend.
-template <std::size_t Limits>
-[[nodiscard]] constexpr std::size_t levelAt(float range, const std::array<float, Limits>& limits) {
-    std::size_t level = 0;
-    while (level < Limits && range >= limits[level]) ++level;
-    return level;
-}
-
-// The viewpoint of a frame. Levels of detail are the same on every node, as they depend on the
-// shared eye alone.
-struct Viewpoint {
-    surface::FrustumPlanes frustum;
-    // The shared eye, world frame.
-    glm::vec3 eyeMetres{};
-    bool culling = true;
-    bool levelsOfDetail = true;
-    // Quality::placeReach of the tier, times how much finer than the wall's pixels those of the
-    // picture are: distances are divided by it.
-    float detail = 1.0F;
-
-    // Whether a part of the ball may be in view.
-    [[nodiscard]] bool sees(glm::vec3 centre, float radius) const {
-        return !culling || frustum.sees(centre, radius);
-    }
-    // The level of detail of a place: 0 is the finest, at limits[i] metres and beyond it is at
-    // least i + 1.
-    template <std::size_t Limits>
-    [[nodiscard]] std::size_t levelOf(glm::vec3 place, std::array<float, Limits> limits) const {
-        if (!levelsOfDetail) return 0;
-        return levelAt(glm::distance(place, eyeMetres) / detail, limits);
-    }
-    // How far that level has faded into the next, 0 to 1: 1 at its limit.
-    template <std::size_t Limits>
-    [[nodiscard]] float fadedOf(glm::vec3 place, std::array<float, Limits> limits) const {
-        const std::size_t level = levelOf(place, limits);
-        if (!levelsOfDetail || level == Limits) return 0.0F;
-        const float range = glm::distance(place, eyeMetres) / detail;
-        return glm::smoothstep(limits[level] / shaders::kFade, limits[level], range);
-    }
-};
 
 }  // namespace aquarama::scene

@@ -7,6 +7,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "common/base/derived_cache.h"
 #include "common/place/place.h"
@@ -26,9 +27,10 @@ static_assert(shaders::kMeanFloorMetres == place::kMeanFloorDepthMetres);
 // The sand is a square of 14 x 14 patches about the origin.
 constexpr float kPatchMetres = 10.0F;
 constexpr int kPatchesASide = 14;
-// Cells along a side of a patch at each level, and the distances at which the coarser levels begin.
-constexpr std::array<int, 3> kCells{24, 12, 6};
-constexpr std::array<float, 2> kLevelMetres{13.0F, 26.0F};
+// Half the diagonal of a patch is 0.71 of its side; the rest is for its height.
+constexpr float kPatchRadius = kPatchMetres * 0.75F;
+// Cells along a side of a patch at each level.
+constexpr std::array<int, shaders::kSandLevels> kCells{24, 12, 6};
 // How far the rim of a patch hangs down.
 constexpr float kRimMetres = 0.35F;
 // Side of the map of shade, texels.
@@ -166,23 +168,26 @@ std::array<Mesh, kCells.size()> layLevels(std::uint32_t seed, glm::vec2 corner) 
 GroundTables makeGroundTables(const place::PlaceKey& place) {
     GroundTables tables;
     constexpr float kHalf = kPatchMetres * kPatchesASide / 2.0F;
-    for (const int cells : kCells) {
-        // All patches share a level's triangles.
-        const Mesh mesh = layPatch(place.seed, {}, kPatchMetres, cells);
-        tables.levels.push_back({static_cast<std::uint32_t>(tables.indices.size()),
-                                 static_cast<std::int32_t>(mesh.indices.size())});
+    // Of each level: all patches share its triangles.
+    std::array<DrawCommand, kCells.size()> shared{};
+    for (std::size_t level = 0; level < kCells.size(); ++level) {
+        const Mesh mesh = layPatch(place.seed, {}, kPatchMetres, kCells.at(level));
+        shared.at(level).count = static_cast<std::uint32_t>(mesh.indices.size());
+        shared.at(level).firstIndex = static_cast<std::uint32_t>(tables.indices.size());
         tables.indices.insert(tables.indices.end(), mesh.indices.begin(), mesh.indices.end());
     }
-    for (int i = 0; i < kPatchesASide * kPatchesASide; ++i) {
+    for (unsigned i = 0; i < kPatchesASide * kPatchesASide; ++i) {
         const glm::vec2 corner =
             glm::vec2{i % kPatchesASide, i / kPatchesASide} * kPatchMetres - kHalf;
         const glm::vec2 middle = corner + kPatchMetres / 2.0F;
-        GroundTables::Patch& patch = tables.patches.emplace_back();
-        patch.centre = {middle.x, place::floorHeight(place, middle), middle.y};
+        tables.balls.emplace_back(
+            middle.x, place::floorHeight(place, middle), middle.y, kPatchRadius);
         const std::array<Mesh, kCells.size()> levels = layLevels(place.seed, corner);
         for (std::size_t level = 0; level < kCells.size(); ++level) {
             const Mesh& mesh = levels.at(level);
-            patch.firstVertices.at(level) = static_cast<int>(tables.vertices.size());
+            DrawCommand& draw = tables.draws.emplace_back(shared.at(level));
+            draw.baseVertex = static_cast<std::int32_t>(tables.vertices.size());
+            draw.baseInstance = i;
             tables.coarse.insert(tables.coarse.end(), mesh.coarse.begin(), mesh.coarse.end());
             tables.vertices.insert(
                 tables.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
@@ -200,49 +205,73 @@ GroundTables groundTables(const place::PlaceKey& place) {
 }
 
 Ground::Ground(const GroundTables& tables, const LightQuality& light)
-    : patches_{tables.patches},
-      levels_{tables.levels},
+    : cull_{gl::makeProgram({"sand_cull.comp"})},
       program_{light.isFine ? gl::makeProgram({"floor.vert", "floor.frag"}, replacementsOf(light))
                             : gl::makeProgram({"floor_plain.vert", "floor_plain.frag"})},
       detail_{makeTexture(sandTile())},
       rubble_{makeTexture(rockTile())},
       shade_{makeShade(tables.shade)} {
+    fillBuffers(tables);
+}
+
+// The vertex attribute kFadedAttribute advances once for each instance, a patch; from
+// kCoarseAttribute on are the members of CoarseVertex.
+void Ground::fillBuffers(const GroundTables& tables) {
+    assert(tables.draws.size() == shaders::kSandLevels * tables.balls.size());
+    patchCount_ = static_cast<unsigned>(tables.balls.size());
     setSolids(array_, vertices_, indices_, tables.vertices, tables.indices);
     coarse_ = gl::makeBuffer(tables.coarse, "sand of the coarser level");
     attachCoarse(array_, coarse_);
+    balls_ = gl::makeBuffer(tables.balls, "sand patches");
+    draws_ = gl::makeBuffer(tables.draws, "sand draws");
+    commands_ = gl::makeBuffer(patchCount_ * sizeof(DrawCommand), "sand commands");
+    faded_ = gl::makeBuffer(patchCount_ * sizeof(float), "sand faded");
+    constexpr unsigned kFaded = shaders::kFadedAttribute;
+    glVertexArrayVertexBuffer(array_.name(), kFaded, faded_.name(), 0, sizeof(float));
+    glVertexArrayBindingDivisor(array_.name(), kFaded, 1);
+    glEnableVertexArrayAttrib(array_.name(), kFaded);
+    glVertexArrayAttribFormat(array_.name(), kFaded, 1, GL_FLOAT, GL_FALSE, 0);
+    glVertexArrayAttribBinding(array_.name(), kFaded, kFaded);
 }
 
-void Ground::draw(const Viewpoint& viewpoint) const {
+// A very long reach selects the finest level everywhere.
+void Ground::cull(const PlaceRule& rule, glm::vec3 sharedEyeMetres, float reach) const {
+    assert(reach > 0.0F);
+    const gl::Stage stage{"place cull"};
+    glUseProgram(cull_.name());
+    glUniform1ui(shaders::kGroupCountLocation, patchCount_);
+    glUniform1i(shaders::kCullingLocation, rule.culling ? 1 : 0);
+    glUniform1f(shaders::kPatchReachLocation, rule.levelsOfDetail ? reach : 1.0e6F);
+    glUniform3fv(shaders::kPatchEyeLocation, 1, glm::value_ptr(sharedEyeMetres));
+    gl::bindStorage(shaders::kGroupsStorage, balls_);
+    gl::bindStorage(shaders::kPatchLevelsStorage, draws_);
+    gl::bindStorage(shaders::kCommandsStorage, commands_);
+    gl::bindStorage(shaders::kFadedStorage, faded_);
+    glDispatchCompute((patchCount_ + shaders::kGroupSize - 1) / shaders::kGroupSize, 1, 1);
+    glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
+}
+
+void Ground::draw() const {
     glUseProgram(program_.name());
     glBindTextureUnit(shaders::kDetailTileUnit, detail_.name());
     glBindTextureUnit(shaders::kFloorShadeUnit, shade_.name());
     glBindTextureUnit(shaders::kFloorRockUnit, rubble_.name());
-    drawPatches(viewpoint);
+    drawPatches();
 }
 
 gl::ProgramHandle Ground::depthProgram() {
     return gl::makeProgram({"floor.vert"});
 }
 
-void Ground::drawDepths(const gl::ProgramHandle& program, const Viewpoint& viewpoint) const {
+void Ground::drawDepths(const gl::ProgramHandle& program) const {
     glUseProgram(program.name());
-    drawPatches(viewpoint);
+    drawPatches();
 }
 
-void Ground::drawPatches(const Viewpoint& viewpoint) const {
+void Ground::drawPatches() const {
     glBindVertexArray(array_.name());
-    // Half the diagonal of a patch is 0.71 of its side; the rest is for its height.
-    constexpr float kPatchRadius = kPatchMetres * 0.75F;
-    for (const GroundTables::Patch& patch : patches_) {
-        if (!viewpoint.sees(patch.centre, kPatchRadius)) continue;
-        const std::size_t level = viewpoint.levelOf(patch.centre, kLevelMetres);
-        glUniform1f(shaders::kFadedLocation, viewpoint.fadedOf(patch.centre, kLevelMetres));
-        glDrawElementsBaseVertex(GL_TRIANGLES,
-                                 levels_[level].count,
-                                 GL_UNSIGNED_INT,
-                                 byteOffset(levels_[level].firstIndex * sizeof(std::uint32_t)),
-                                 patch.firstVertices[level]);
-    }
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.name());
+    drawCommands(0, static_cast<GLsizei>(patchCount_));
 }
 
 }  // namespace aquarama::scene

@@ -96,8 +96,7 @@ GLsizei commandCount(unsigned prototypes, unsigned levels) {
 // Draws `count` commands of the indirect buffer that is bound.
 void drawFrom(std::size_t command, GLsizei count) {
     assert(command + static_cast<std::size_t>(count) <= kPrototypes * kLevels);
-    glMultiDrawElementsIndirect(
-        GL_TRIANGLES, GL_UNSIGNED_INT, byteOffset(command * sizeof(DrawCommand)), count, 0);
+    drawCommands(command, count);
 }
 
 }  // namespace
@@ -239,7 +238,7 @@ void Reef::stir(std::size_t fish, float fraction) const {
 
 // First step: tests the balls of the groups. It writes the number of seen groups as the size of the
 // second dispatch, which starts at 0 x 1 x 1.
-void Reef::cullGroups(const ReefRule& rule) const {
+void Reef::cullGroups(const PlaceRule& rule) const {
     constexpr std::array<std::uint32_t, 3> kNone{0, 1, 1};
     glClearNamedBufferSubData(seenGroups_.name(),
                               GL_RGB32UI,
@@ -259,7 +258,7 @@ void Reef::cullGroups(const ReefRule& rule) const {
 
 // Second step: resets the commands, then tests the instances of the seen groups. A very high detail
 // selects the finest level everywhere.
-void Reef::cull(const ReefRule& rule) const {
+void Reef::cull(const PlaceRule& rule) const {
     const gl::Stage stage{"place cull"};
     glCopyNamedBufferSubData(none_.name(),
                              commands_.name(),

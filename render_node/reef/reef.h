@@ -14,6 +14,7 @@
 #include "render_node/gl/handle.h"
 #include "render_node/quality/quality.h"
 #include "render_node/reef/mesh.h"
+#include "render_node/reef/place_draw.h"
 #include "render_node/reef/scatter.h"
 
 namespace aquarama::scene {
@@ -26,16 +27,6 @@ using Library = std::array<Levels, kPrototypes>;
 // Least size in pixels of each level of a prototype: the pixels that its scale fills at the shared
 // eye, times Quality::placeDetail. From kFade times that size down the level fades into the next.
 [[nodiscard]] std::array<float, kLevels> leastPixelsOf(std::size_t prototype);
-
-// A draw, as glMultiDrawElementsIndirect reads it.
-struct DrawCommand {
-    std::uint32_t count = 0;
-    std::uint32_t instanceCount = 0;
-    std::uint32_t firstIndex = 0;
-    std::int32_t baseVertex = 0;
-    std::uint32_t baseInstance = 0;
-};
-static_assert(sizeof(DrawCommand) == 20);
 
 // Layout of Prototype in place_cull.comp, std430. Lengths are for a scale of 1.
 struct Prototype {
@@ -74,12 +65,6 @@ struct ReefTables {
 // Takes the tables from the cache of derived data, or makes them once on this machine.
 [[nodiscard]] ReefTables reefTables(const place::PlaceKey& place);
 
-// Both are switched off only for maps of depth and for measurements.
-struct ReefRule {
-    bool culling = true;
-    bool levelsOfDetail = true;
-};
-
 // Draws the reef. For each frame stir(), for each view cull() and draw(). Owns its GL objects;
 // construct, use and destroy it with the same context current.
 class Reef {
@@ -91,7 +76,7 @@ class Reef {
     // `fraction` of the way between the ticks.
     void stir(std::size_t fish, float fraction) const;
     // Selects instances and levels for the view in the frame's uniform block, which must be bound.
-    void cull(const ReefRule& rule) const;
+    void cull(const PlaceRule& rule) const;
     // Draws the instances that the last cull() selected; those that fill most of the view come
     // first.
     void draw() const;
@@ -104,7 +89,7 @@ class Reef {
 
   private:
     void bind() const;
-    void cullGroups(const ReefRule& rule) const;
+    void cullGroups(const PlaceRule& rule) const;
     void fillBuffers(const ReefTables& tables);
 
     Quality quality_;

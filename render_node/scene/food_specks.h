@@ -13,8 +13,6 @@
 
 namespace aquarama::scene {
 
-struct Viewpoint;
-
 // One particle of food at the frame's moment, world frame.
 struct FoodParticle {
     glm::vec3 positionMetres{};
@@ -28,9 +26,8 @@ struct FoodParticle {
 class FoodSpecks {
   public:
     explicit FoodSpecks(const gl::Replacements& replacements);
-    // Selects the particles that this view can see and uploads them. Costs one test for each
-    // particle. Call it for each view, before draw().
-    void update(std::span<const FoodParticle> food, const Viewpoint& viewpoint);
+    // Uploads the frame's food. The shaders leave out what a view cannot see.
+    void update(std::span<const FoodParticle> food);
     // Blends them over what is drawn: call it after all solid things. Expects the frame's uniform
     // block and the sea's light to be bound.
     void draw() const;
@@ -47,8 +44,8 @@ class FoodSpecks {
     gl::ProgramHandle plankton_, pellets_;
     gl::Buffer specks_;
     gl::VertexArray empty_;
-    // The particles that the last update() selected: pellets first, then plankton.
-    std::vector<Speck> seen_;
+    // What is in the buffer: pellets first, then plankton.
+    std::vector<Speck> all_;
     int pelletCount_ = 0;
 };
 

@@ -168,7 +168,9 @@ struct SceneRenderer::Parts {
     void setUniforms() const;
     // Draws the shadow maps of the place, once.
     void bakeShadows();
-    void drawSolids(const Viewpoint& viewpoint);
+    // Selects what a view shows of the place. Its pixels are so much finer than the wall's.
+    void cullPlace(float finer) const;
+    void drawSolids();
     void drawWater() const;
     void drawSnow() const;
 
@@ -178,8 +180,6 @@ struct SceneRenderer::Parts {
     gl::Replacements shaders;
     BottomTables bottomTables;
     shaders::FrameUniforms uniforms{};
-    // The frame's food, kept for its views.
-    std::vector<FoodParticle> specks;
     gl::Buffer frameBlock{
         gl::makeBuffer(sizeof(shaders::FrameUniforms), "frame", GL_DYNAMIC_STORAGE_BIT)};
     gl::VertexArray empty;
@@ -208,22 +208,27 @@ void SceneRenderer::Parts::bakeShadows() {
         uniforms.clipFromWorld = clipFromWorld;
         setUniforms();
         light.bind();
-        bottom->reef.cull({.culling = false, .levelsOfDetail = options.levelsOfDetail});
+        const PlaceRule rule{.culling = false, .levelsOfDetail = options.levelsOfDetail};
+        bottom->reef.cull(rule);
+        bottom->ground.cull(rule, place::kEyePosition, 1.0F);
         bottom->reef.drawDepths(reefPrograms);
-        bottom->ground.drawDepths(groundProgram,
-                                  Viewpoint{surface::frustumOf(clipFromWorld),
-                                            place::kEyePosition,
-                                            false,
-                                            options.levelsOfDetail});
+        bottom->ground.drawDepths(groundProgram);
     });
 }
 
+void SceneRenderer::Parts::cullPlace(float finer) const {
+    if (!bottom) return;
+    const PlaceRule rule{options.culling, options.levelsOfDetail};
+    bottom->reef.cull(rule);
+    bottom->ground.cull(rule, glm::vec3(uniforms.sharedEyeAndPixel), quality.placeReach * finer);
+}
+
 // The reef before the sand, so that the depth test saves shading sand that the reef hides.
-void SceneRenderer::Parts::drawSolids(const Viewpoint& viewpoint) {
+void SceneRenderer::Parts::drawSolids() {
     const gl::Stage stage{"place"};
     if (!bottom) return;
     bottom->reef.draw();
-    bottom->ground.draw(viewpoint);
+    bottom->ground.draw();
 }
 
 // The surface as a square of four vertices, then open water on the far plane: it passes the depth
@@ -268,7 +273,7 @@ void SceneRenderer::update(const SceneFrame& frame) {
     parts.uniforms = frameUniforms(
         frame, parts.light.water(), parts.options.current, parts.options.pixelRadians);
     parts.uniforms.bottom.x = parts.bottom ? 1.0F : 0.0F;
-    parts.specks.assign(frame.food.begin(), frame.food.end());
+    parts.food.update(frame.food);
     parts.setUniforms();
     parts.school.update(frame.fish);
     parts.school.bindRecords();
@@ -296,19 +301,12 @@ unsigned SceneRenderer::draw(const View& view) {
         {glm::vec3(parts.uniforms.sharedEyeAndPixel), parts.uniforms.sharedEyeAndPixel.w});
     // All compute passes run before anything is drawn: a driver may have to wait when it switches
     // between the two.
-    if (parts.bottom)
-        parts.bottom->reef.cull({parts.options.culling, parts.options.levelsOfDetail});
+    parts.cullPlace(view.finer);
     parts.picture.begin(drawnOf(view).size);
-    const Viewpoint viewpoint{surface::frustumOf(parts.uniforms.clipFromWorld),
-                              glm::vec3(parts.uniforms.sharedEyeAndPixel),
-                              parts.options.culling,
-                              parts.options.levelsOfDetail,
-                              parts.quality.placeReach * view.finer};
     parts.school.drawBodies();
-    parts.drawSolids(viewpoint);
+    parts.drawSolids();
     parts.drawWater();
     parts.school.drawBlended();
-    parts.food.update(parts.specks, viewpoint);
     parts.food.draw();
     parts.drawSnow();
     return parts.picture.finish(view.finer > 1);

@@ -5,7 +5,7 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 packedNormal;
 layout(location = kCoarseAttribute) in vec3 coarsePosition;
 layout(location = kCoarseAttribute + 1) in vec4 coarseNormal;
-layout(location = kFadedLocation) uniform float faded;
+layout(location = kFadedAttribute) in float faded;
 struct FloorCorner {
     vec3 place, normal;
 };

@@ -1,6 +1,6 @@
-// A crumb of fish food: an uneven octahedron that tumbles as it sinks, lit on each face.
-// In: specks by instance, world metres; 24 vertices. Out: light that reaches the eye, coverage,
-// clip space.
+// A crumb of fish food: an uneven octahedron that tumbles as it sinks, lit on each face. Those that cannot be seen are
+// left out first. In: specks by instance, world metres; 24 vertices. Out: light that reaches the eye, coverage, clip
+// space.
 #include "shader_interface.h"
 #include "food_particle.glsl"
 #include "shading.glsl"
@@ -23,6 +23,10 @@ void main() {
     Speck speck = specks[gl_InstanceID];
     vec3 way = speck.place - eyeAndTime.xyz;
     float range = length(way);
+    light = vec3(0.0);
+    coverage = 0.0;
+    gl_Position = kOutside;
+    if (range >= kPelletMetres || !isInFrustum(speck.place, kMostReach)) return;
     float radius = mix(0.007, 0.013, unit(speck.seed, 3u));
     float pixels = 2.0 * radius / range * pixelsARadian();
     float larger = max(kLeastPixels / max(pixels, 1.0e-3), 1.0);
@@ -44,5 +48,5 @@ void main() {
     coverage = smoothstep(kPelletMetres, 0.7 * kPelletMetres, range) / (larger * larger);
     // The far side is hidden by the near one.
     bool hidden = dot(normal, speck.place + middle * (radius * larger) - eyeAndTime.xyz) >= 0.0;
-    gl_Position = hidden ? vec4(2.0, 2.0, 2.0, 1.0) : clipFromWorld * vec4(place, 1.0);
+    if (!hidden) gl_Position = clipFromWorld * vec4(place, 1.0);
 }

@@ -5,6 +5,7 @@
 // instances, with how far each has faded into the next level. The order within a command is not fixed;
 // opaque draws do not depend on it.
 #include "shader_interface.h"
+#include "draw_command.glsl"
 #include "instance.glsl"
 #include "place_groups.glsl"
 layout(local_size_x = kGroupSize) in;
@@ -12,11 +13,6 @@ struct Prototype {
     float reach, middle;
     uint firstCommand, commandStride;
     float leastPixels[5];
-};
-struct Command {
-    uint count, instanceCount, firstIndex;
-    int baseVertex;
-    uint baseInstance;
 };
 layout(std430, binding = kPrototypesStorage) readonly buffer Prototypes { Prototype prototypes[]; };
 layout(std430, binding = kCommandsStorage) buffer Commands { Command commands[]; };

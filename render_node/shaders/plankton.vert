@@ -1,6 +1,5 @@
-// Plankton: small clear bodies that catch the light as they turn.
-// In: specks, world metres; the sea's light. Out: point sprites in clip space with the light that
-// reaches the eye.
+// Plankton: small clear bodies that catch the light as they turn. Those that cannot be seen are left out first.
+// In: specks, world metres; the sea's light. Out: point sprites in clip space with the light that reaches the eye.
 #include "shader_interface.h"
 #include "water.glsl"
 #include "food_particle.glsl"
@@ -15,6 +14,10 @@ void main() {
     Speck speck = specks[first + gl_VertexID];
     vec3 way = speck.place - eyeAndTime.xyz;
     float range = length(way);
+    light = vec3(0.0);
+    gl_Position = kOutside;
+    gl_PointSize = 1.0;
+    if (range >= kPlanktonMetres || !isInFrustum(speck.place, kMostReach)) return;
     float diameter = mix(0.0030, 0.0065, unit(speck.seed, 3u));
     float sharp = diameter / range * pixelsARadian();
     float blur = lensBlurRadians(range) * pixelsARadian();

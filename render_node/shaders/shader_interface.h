@@ -44,6 +44,9 @@ AQUARAMA_CONSTANT int kChosenStorage = 11;
 AQUARAMA_CONSTANT int kWakeStorage = 12;
 AQUARAMA_CONSTANT int kGroupsStorage = 13;
 AQUARAMA_CONSTANT int kSeenGroupsStorage = 14;
+// Of sand, beside kCommandsStorage; kGroupsStorage has balls about its patches.
+AQUARAMA_CONSTANT int kPatchLevelsStorage = 9;
+AQUARAMA_CONSTANT int kFadedStorage = 11;
 
 // Of the colours of a skin.
 AQUARAMA_CONSTANT int kSkinPlacesStorage = 0;
@@ -105,7 +108,6 @@ AQUARAMA_CONSTANT int kPageCountLocation = 21;
 // Locations of uniforms: what grows, and rock.
 AQUARAMA_CONSTANT int kReachLocation = 0;
 AQUARAMA_CONSTANT int kStirredLocation = 1;
-AQUARAMA_CONSTANT int kFadedLocation = 0;  // of a patch of sand
 AQUARAMA_CONSTANT int kRockScalesLocation = 1;
 AQUARAMA_CONSTANT int kWakeFishCountLocation = 1;
 
@@ -114,6 +116,8 @@ AQUARAMA_CONSTANT int kGroupCountLocation = 0;
 AQUARAMA_CONSTANT int kInstanceCountLocation = 0;
 AQUARAMA_CONSTANT int kCullingLocation = 1;
 AQUARAMA_CONSTANT int kCullDetailLocation = 2;
+AQUARAMA_CONSTANT int kPatchReachLocation = 2;
+AQUARAMA_CONSTANT int kPatchEyeLocation = 3;
 
 // Locations of uniforms: waves, caustics, shafts.
 AQUARAMA_CONSTANT int kTileMetresLocation = 0;
@@ -159,6 +163,8 @@ AQUARAMA_CONSTANT int kMostSignBytes = 512;  // of its dots
 
 // Vertex attributes and vertex buffers of what grows. The instance that was chosen.
 AQUARAMA_CONSTANT int kChosenAttribute = 4;
+// How far a patch of sand has faded into the coarser level.
+AQUARAMA_CONSTANT int kFadedAttribute = 4;
 // Of a vertex on the coarser level: place, normal, albedo.
 AQUARAMA_CONSTANT int kCoarseAttribute = 5;
 // From so many times the least size of a level on it fades into the next.
@@ -247,9 +253,14 @@ AQUARAMA_CONSTANT float kRippleTileMetres = 2.9F;  // the shorter waves
 AQUARAMA_CONSTANT float kSandTileMetres = 2.6F;
 AQUARAMA_CONSTANT float kRockTileMetres = 1.1F;
 AQUARAMA_CONSTANT float kMeanFloorMetres = 8.6F;  // depth of a reef's floor, as common/place has it
+AQUARAMA_CONSTANT float kSandMiddleMetres = 13.0F;  // where the middle level of the sand begins
+AQUARAMA_CONSTANT float kSandCoarseMetres = 26.0F;  // and the coarsest
 AQUARAMA_CONSTANT float kFloorShadeMetres = 72.0F;  // the floor's occlusion, round the origin
 AQUARAMA_CONSTANT float kPlaceMetres = 80.0F;       // maps of the place's shadows, round the origin
 AQUARAMA_CONSTANT float kMapDepthMetres = 64.0F;    // depth 0 of those maps; 1 is the surface
+
+// Levels of detail of the sand.
+AQUARAMA_CONSTANT uint kSandLevels = 3U;
 
 // How far food is seen, metres.
 AQUARAMA_CONSTANT float kPlanktonMetres = 8.0F;
