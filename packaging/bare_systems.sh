@@ -12,6 +12,9 @@ cache=${XDG_CACHE_HOME:-$HOME/.cache}/aquarama
 mirror=$(apt-get indextargets --format '$(REPO_URI)' "Label: Debian" "Created-By: Packages" | head -n 1)
 [ -n "$mirror" ] || { echo "$(basename "$0"): apt knows no Debian mirror; run apt-get update" >&2; exit 1; }
 
+# What QEMU emulates where it does: no AVX, since programs that llvmpipe had compiled for that of QEMU 7.2 crashed.
+emulated_processor=max,avx=off,avx2=off,f16c=off,fma=off
+
 work=$(mktemp -d /var/tmp/aquarama-bare.XXXXXX)
 inside=
 clean_up() {

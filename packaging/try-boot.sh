@@ -74,7 +74,8 @@ mke2fs -q -t ext4 -d "$root" "$work/hall.img" 2G >/dev/null
 
 began=$SECONDS
 kernel_options="quiet loglevel=0 vt.global_cursor_default=0 consoleblank=0 systemd.show_status=false console=ttyS0"
-qemu-system-x86_64 -accel tcg,thread=multi -cpu max -smp 2 -m 1500 -no-reboot -display none -vga std -nic none \
+qemu-system-x86_64 -accel tcg,thread=multi -cpu "$emulated_processor" -smp 2 -m 1500 -no-reboot \
+    -display none -vga std -nic none \
     -kernel "$root"/boot/vmlinuz-* -initrd "$root"/boot/initrd.img-* -drive "file=$work/hall.img,format=raw,if=virtio" \
     -append "root=/dev/vda rw $kernel_options" -serial "file:$work/serial.log" \
     -serial "unix:$work/word,server,nowait" -monitor "unix:$work/monitor,server,nowait" &

@@ -91,7 +91,8 @@ power_on() {
     for drive in "$@"; do drives+=(-drive "file=$drive,format=raw,if=virtio"); done
     rm -f "$work/screen.ppm" "$work/serial.log"
     cp /usr/share/OVMF/OVMF_VARS.fd "$work/vars.fd"
-    qemu-system-x86_64 -accel tcg,thread=multi -cpu max -smp 2 -m 2500 -display none -vga std -nic user,restrict=on \
+    qemu-system-x86_64 -accel tcg,thread=multi -cpu "$emulated_processor" -smp 2 -m 2500 \
+        -display none -vga std -nic user,restrict=on \
         -drive "if=pflash,format=raw,unit=0,readonly=on,file=$firmware" \
         -drive "if=pflash,format=raw,unit=1,file=$work/vars.fd" "${drives[@]}" \
         -serial "file:$work/serial.log" -monitor "unix:$work/monitor,server,nowait" &

@@ -1,6 +1,7 @@
 """Machines that QEMU emulates, with UEFI and without KVM, and what their screens show."""
 
 import json
+import re
 import shutil
 import socket
 import subprocess
@@ -10,6 +11,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 FIRMWARE = Path("/usr/share/OVMF/OVMF_CODE.fd")
+PROCESSOR = re.search(r"^emulated_processor=(\S+)", (ROOT / "packaging/bare_systems.sh").read_text(), re.MULTILINE)[1]
 sys.path.insert(0, str(ROOT / "packaging"))
 
 from check_screen import MOST_SHARE, read_ppm, share_apart  # noqa: E402
@@ -88,8 +90,8 @@ class Machine:
         end = "socket,id=wire,localaddr=127.0.0.1:{},udp=127.0.0.1:{}".format(*self.ports)
         card = "virtio-net,netdev=wire,mac=52:54:00:00:{:02x}:{:02x}".format(*divmod(self.ports[0], 256))
         self.process = subprocess.Popen(
-            ["qemu-system-x86_64", "-accel", "tcg,thread=multi", "-cpu", "max", "-smp", "2", "-m", "2500", "-display",
-             "none", "-vga", "std", "-netdev", end, "-device", card,
+            ["qemu-system-x86_64", "-accel", "tcg,thread=multi", "-cpu", PROCESSOR, "-smp", "2", "-m", "2500",
+             "-display", "none", "-vga", "std", "-netdev", end, "-device", card,
              "-serial", f"file:{serial}", "-serial", f"unix:{shell},server,nowait",
              "-monitor", f"unix:{monitor},server,nowait",
              *(word for drive in drives for word in ("-drive", drive))])
