@@ -20,8 +20,10 @@ void main() {
     sums[thread] = sum;
     barrier();
 
+    // Threads further on have no groups.
+    uint busy = (kinds[species].groups + run - 1u) / max(run, 1u);
     uint before = 0u;
-    for (uint other = 0u; other < thread; ++other) before += sums[other];
+    for (uint other = 0u; other < min(thread, busy); ++other) before += sums[other];
     for (uint group = first; group < last; ++group) {
         uint count = counts[group * kDetailStride + list];
         counts[group * kDetailStride + list] = before;

@@ -13,7 +13,7 @@ namespace {
 
 // Pixels, by level. A control mesh has 26 rings along the fish: where the next level takes over, at
 // 60 pixels, its quads are about 2 pixels long, and so on for the finer levels.
-constexpr DetailLimits kLimits{0.0F, 2.5F, 4.0F, 14.0F, 60.0F, 180.0F, 600.0F};
+constexpr DetailLimits kLimits{0.0F, 2.5F, 4.0F, 20.0F, 60.0F, 180.0F, 600.0F};
 // A level looks entirely like itself at this multiple of its limit.
 constexpr float kMorph = 1.35F;
 

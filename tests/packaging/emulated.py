@@ -1,5 +1,6 @@
 """Machines that QEMU emulates, with UEFI and without KVM, and what their screens show."""
 
+import contextlib
 import json
 import re
 import shutil
@@ -58,29 +59,36 @@ class Machine:
         listed = called("mdir", "-b", "-i", self.system(), "::loader/entries")
         return {line.rsplit("/", 1)[1] for line in listed.split()}
 
+    @contextlib.contextmanager
     def data(self):
-        """Where e2fsprogs find the data partition."""
-        return f"{self.disk}?offset={512 * partitions(self.disk)[1]['start']}"
+        """The data partition as a device, while the machine is off."""
+        data = partitions(self.disk)[1]
+        device = called("losetup", "--find", "--show", "--offset", 512 * data["start"], "--sizelimit",
+                        512 * data["size"], self.disk).strip()
+        try:
+            yield device
+        finally:
+            called("losetup", "--detach", device)
 
     def grow(self, mebibytes):
         """More room for data, which are empty before the first start."""
         with open(self.disk, "r+b") as disk:
             disk.truncate(disk.seek(0, 2) + (mebibytes << 20))
         called("sfdisk", "-q", "-N", 2, self.disk, input=",+\n")
-        data = partitions(self.disk)[1]
-        called("mke2fs", "-q", "-F", "-t", "ext4", "-L", "aquarama-data", "-E", f"offset={512 * data['start']}",
-               self.disk, f"{data['size'] // 2}K")
+        with self.data() as data:
+            called("mke2fs", "-q", "-F", "-t", "ext4", "-L", "aquarama-data", data)
 
     def put_in_data(self, folder, where):
         """Copies a folder into one of the data partition, while it is off."""
         target = f"{where}/{folder.name}"
         commands = [f"mkdir {target}", *(f"write {file} {target}/{file.name}" for file in sorted(folder.iterdir()))]
         (self.folder / "commands").write_text("\n".join(commands))
-        called("e2fsck", "-fp", self.data(), okay=(0, 1))
-        called("debugfs", "-w", "-f", self.folder / "commands", self.data())
-        for file in folder.iterdir():
-            there = called("debugfs", "-R", f"stat {target}/{file.name}", self.data())
-            assert f"Size: {file.stat().st_size}" in there, f"{file} is not in the data partition: {there}"
+        with self.data() as data:
+            called("e2fsck", "-fp", data, okay=(0, 1))
+            called("debugfs", "-w", "-f", self.folder / "commands", data)
+            for file in folder.iterdir():
+                there = called("debugfs", "-R", f"stat {target}/{file.name}", data)
+                assert f"Size: {file.stat().st_size}" in there, f"{file} is not in the data partition: {there}"
 
     def power_on(self):
         variables, serial, monitor, shell = (self.folder / name for name in ("vars", "serial", "monitor", "shell"))

@@ -119,7 +119,7 @@ motion::PresentedFish fishAway(float metres) {
 TEST_F(DetailTest, noLimitLeavesAJump) {
     constexpr float kNear = 2e-4F;
     for (const std::string species : {"bigeye_scad", "moorish_idol"})
-        for (const float limit : {2.5F, 4.0F, 14.0F, 60.0F, 180.0F}) {
+        for (const float limit : {2.5F, 4.0F, 20.0F, 60.0F, 180.0F}) {
             Wall wall(species, cameraFor(limit), 1);
             const Pixels water = wall.shown({});
             const auto at = [&](float pixels) {
