@@ -100,7 +100,7 @@ scene::View viewOf(float shift = 0.0F, float finer = 1.0F) {
 }
 
 // Pixels of the wall that the fish fills, in the middle of each level that low quality has.
-constexpr std::array<float, 6> kPixelsAtLevel{2.0F, 3.2F, 9.0F, 30.0F, 120.0F, 400.0F};
+constexpr std::array<float, 6> kPixelsAtLevel{2.0F, 3.2F, 12.0F, 45.0F, 120.0F, 400.0F};
 constexpr float kFewestPixels = 1.0F;
 
 // Two clownfish in the open sea: the first in the middle of the picture, the second to the right.
