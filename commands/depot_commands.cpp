@@ -117,7 +117,7 @@ void serveReleases(const ServeOptions& options) {
 
 std::optional<net::PeerKeys> peerKeysOf(const std::string& file) {
     if (file.empty()) return std::nullopt;
-    const config::KeyFile key = config::readKeyFile(file);
+    const config::KeyFile key = config::readOwnKey(file);
     return net::PeerKeys{key.masterKey, {key.publicKey, key.secretKey}};
 }
 

@@ -202,6 +202,9 @@ void bundleKey(const KeyOptions& options) {
     if (!key.revoked.empty())
         throw Error(key.name + " was revoked on " + key.revoked +
                     "; make a new key (aquarama keys rotate)");
+    if (key.secretKey.empty())
+        throw Error(key.name + ": its node alone has its secret (aquarama nodes assign); make a " +
+                    "new key (aquarama keys rotate)");
     key.masterAddress = rig.controlAddress;
     key.depotAddress = rig.sides.depot;
     const fs::path out =

@@ -155,7 +155,7 @@ std::string AskedMaster::keyPath() const {
 RequestClient AskedMaster::connect() const {
     const std::string path = keyPath();
     if (path.empty()) return {address.empty() ? mastersOf(rig) : std::vector{address}, {}};
-    const config::KeyFile shown = config::readKeyFile(path);
+    const config::KeyFile shown = config::readOwnKey(path);
     std::vector<std::string> addresses{address.empty() ? shown.masterAddress : address};
     const bool isAtHand =
         shown.rig == std::filesystem::path(rig).stem() && std::filesystem::exists(rig);

@@ -49,13 +49,23 @@ KeyFile readKeyFile(const fs::path& path) {
     return parseKeyFile(readTextFile(path.string()), path.string());
 }
 
+KeyFile readOwnKey(const fs::path& path) {
+    KeyFile key = readKeyFile(path);
+    if (key.secretKey.empty())
+        throw Error(path.string() + ": another machine was given \"" + key.name +
+                    "\", and alone has its secret; start no node with this file, or make a new " +
+                    "key (aquarama keys rotate)");
+    return key;
+}
+
 KeyFile parseKeyFile(const std::string& text, const std::string& source) {
     v1::KeyFile in;
     TextReader file(text, source, in);
     file.check();
     checkKey(file, in, "master_key", in.master_key());
     checkKey(file, in, "public_key", in.public_key());
-    checkKey(file, in, "secret_key", in.secret_key());
+    if (in.has_secret_key() || in.role() != v1::KeyFile::NODE)
+        checkKey(file, in, "secret_key", in.secret_key());
     return {.rig = in.rig(),
             .masterAddress = in.master_address(),
             .masterKey = in.master_key(),
@@ -77,13 +87,16 @@ std::string textOf(const KeyFile& key) {
     out.set_name(key.name);
     out.set_role(static_cast<v1::KeyFile::Role>(static_cast<int>(key.role) + v1::KeyFile::MASTER));
     out.set_public_key(key.publicKey);
-    out.set_secret_key(key.secretKey);
+    if (!key.secretKey.empty()) out.set_secret_key(key.secretKey);
     out.set_made(key.made);
     if (!key.revoked.empty()) out.set_revoked(key.revoked);
     if (!key.depotAddress.empty()) out.set_depot_address(key.depotAddress);
     std::string text;
     google::protobuf::TextFormat::PrintToString(out, &text);
-    return "# Secret: whoever holds this file takes part as " + key.name + ".\n" + text;
+    const std::string head = key.secretKey.empty()
+                                 ? "# Public: its node alone has the secret of " + key.name
+                                 : "# Secret: whoever holds this file takes part as " + key.name;
+    return head + ".\n" + text;
 }
 
 void writeKeyFile(const fs::path& path, const KeyFile& key) {

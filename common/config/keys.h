@@ -36,13 +36,15 @@ struct KeyFile {
     std::string masterKey;      // public
     std::string name;           // of the channel; "master"; or of the role
     KeyRole role = KeyRole::Watcher;
-    std::string publicKey, secretKey;
+    std::string publicKey, secretKey;  // the latter is empty where only the holder has it
     std::string made, revoked;      // days, 2026-11-23; revoked is empty while the key is valid
     std::string depotAddress = {};  // of releases; empty: the rig has none
 };
 
 // Throws Error where it cannot be read, is malformed, or others than its owner may read it.
 [[nodiscard]] KeyFile readKeyFile(const std::filesystem::path& path);
+// The key with which this process takes part. Throws Error also where the file has no secret.
+[[nodiscard]] KeyFile readOwnKey(const std::filesystem::path& path);
 [[nodiscard]] KeyFile parseKeyFile(const std::string& text, const std::string& source);
 // Throws Error where others than its owner may read a secret.
 void requirePrivate(const std::filesystem::path& path);

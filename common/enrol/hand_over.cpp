@@ -104,7 +104,10 @@ void assignChannel(const std::string& rigPath,
     handOver(node, code, [&] {
         KeyFile key = freshKey(rig, rigPath, channel, KeyRole::Node, day);
         key.masterKey = master.publicKey;
-        config::writeKeyFile(config::keyFileIn(folder, channel), key);
+        // The node alone has the secret: who starts with the master's file does not take its place.
+        KeyFile known = key;
+        known.secretKey.clear();
+        config::writeKeyFile(config::keyFileIn(folder, channel), known);
         return key;
     });
 }

@@ -118,7 +118,7 @@ void readKey(const std::string& path, aquarama::show::NodeOptions& options) {
         if (options.masterAddresses.empty()) throw CLI::RequiredError("--master or --key");
         return;
     }
-    const config::KeyFile key = config::readKeyFile(path);
+    const config::KeyFile key = config::readOwnKey(path);
     if (key.role != config::KeyRole::Node)
         throw Error(path + ": is the key of a " + std::string(config::nameOf(key.role)) +
                     "; a node needs that of its channel (aquarama keys bundle)");

@@ -106,6 +106,7 @@ class Hall:
         any node without a master does."""
         log = f"journalctl -b --no-pager -n 3 -u aquarama-node@{channel}"
         wait_until(lambda: "no master answers" in self.master.tell(log), MOST_SECONDS, f"the first {channel} is out")
+        self.master.tell(f"rm /etc/aquarama/nodes/{channel}.conf; sync")
 
     # --- releases
 

@@ -65,6 +65,19 @@ TEST_F(Keys, everyFieldComesBackFromAFileThatItsOwnerAloneMayRead) {
     EXPECT_EQ(read.depotAddress, written.depotAddress);
 }
 
+TEST_F(Keys, aChannelWhoseNodeAloneHasTheSecretIsKnownButNobodysOwn) {
+    KeyFile known = key("left");
+    known.secretKey.clear();
+    const fs::path path = keyFileIn(folder_, "left");
+    writeKeyFile(path, known);
+    EXPECT_EQ(readKeyFile(path).publicKey, known.publicKey);
+    EXPECT_THAT([&] { static_cast<void>(readOwnKey(path)); },
+                testing::ThrowsMessage<Error>(testing::HasSubstr("another machine was given")));
+    known.role = KeyRole::Operator;  // of nobody else a secret is missing
+    writeKeyFile(path, known);
+    EXPECT_THAT(refusalOf(path), testing::HasSubstr("secret_key"));
+}
+
 TEST_F(Keys, aFolderIsReadByNameAndNothingElseInIt) {
     writeKeyFile(keyFileIn(folder_, "right"), key("right"));
     writeKeyFile(keyFileIn(folder_, "left"), key("left"));
