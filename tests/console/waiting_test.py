@@ -103,6 +103,10 @@ class Waiting(unittest.TestCase):
         text = aquarama("status", self.rig, "--key", self.keys / "operator.key").stdout
         return re.search(rf"^{channel} +in step", text, re.M) is not None
 
+    def await_in_step(self, channel):
+        """A node compiles what it draws first: with software OpenGL, beside other tests, that takes a minute."""
+        wait_until(lambda: self.is_in_step(channel), 180, f"{channel} in step")
+
     def test_channels_are_given_by_letter_and_a_stranger_gets_nothing(self):
         signs = {machine: self.wait(machine) for machine in CHANNELS}
         self.assertEqual(len({letter for letter, _ in signs.values()}), 3)
@@ -123,7 +127,7 @@ class Waiting(unittest.TestCase):
         self.assertEqual([fault["id"] for fault in faults["violations"]], [])
         for machine, (letter, code) in signs.items():
             self.give(letter, machine, code)
-            wait_until(lambda: self.is_in_step(machine), 60, f"{machine} in step")
+            self.await_in_step(machine)
         self.assertNotEqual((self.keys / "left.key").read_text(), before)
         self.assertIn('name: "left"', (self.at / "left.machine.key").read_text())
         self.assertEqual((self.at / "left.machine.key").stat().st_mode & 0o777, 0o600)
@@ -139,9 +143,9 @@ class Waiting(unittest.TestCase):
         given = self.assign(letter.lower(), "left", code.lower())
         self.assertEqual(given.returncode, 0, given.stderr)
         wait_until(lambda: "is given the channel left" in self.said("spare.log"), 20, "the key of the spare machine")
-        wait_until(lambda: self.is_in_step("left"), 60, "the spare machine in step")
+        self.await_in_step("left")
         end([self.processes[1]])  # the node that had the channel: nobody misses it
-        wait_until(lambda: self.is_in_step("left"), 60, "the spare machine in step without the other")
+        self.await_in_step("left")  # still
 
     def test_the_release_of_all_machines_is_shown_and_the_crew_has_a_word(self):
         wait_until(lambda: "no depot answers" in find(self.driver, "[aria-labelledby=releases]").text, 20,
