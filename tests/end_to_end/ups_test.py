@@ -157,7 +157,7 @@ class Ups(ShowCase):
         self.mains.say("OL")
         wait_until(lambda: self.is_black() is False, 30, "the world")
         self.assertFalse(on_battery.exists())
-        self.assertFalse(self.mark.exists())
+        wait_until(lambda: not self.mark.exists(), 30, "the end of what the wall was black by")
 
     def test_a_short_failure_is_not_seen(self):
         self.begin_show()
