@@ -37,8 +37,8 @@ struct KeyFile {
     std::string name;           // of the channel; "master"; or of the role
     KeyRole role = KeyRole::Watcher;
     std::string publicKey, secretKey;  // the latter is empty where only the holder has it
-    std::string made, revoked;      // days, 2026-11-23; revoked is empty while the key is valid
-    std::string depotAddress = {};  // of releases; empty: the rig has none
+    std::string made, revoked;         // days, 2026-11-23; revoked is empty while the key is valid
+    std::string depotAddress = {};     // of releases; empty: the rig has none
 };
 
 // Throws Error where it cannot be read, is malformed, or others than its owner may read it.

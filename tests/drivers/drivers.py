@@ -162,24 +162,25 @@ def try_driver(name):
     return found
 
 
-# 60, 2400, 100 000 and 250 000 fish, on three channels of a theatre and on eight of 4K.
-TIMED = [f"{wall}/{sea}/high" for wall in ("theatre", "eight_4k")
-         for sea in ("reef_1998", "bait_ball_2400", "bait_ball_100000", "bait_ball_250000")]
+# 60, 380, 2400, 100 000 and 250 000 fish. The driver without a card has memory for the three channels of a theatre
+# and not for eight of 4K, and gives none back: one call for each.
+TIMED = [f"theatre/{sea}/high"
+         for sea in ("reef_1998", "reef", "bait_ball_2400", "bait_ball_100000", "bait_ball_250000")]
 
 
-def print_times():
+def print_time(wall):
     """The processor's time of a frame by stage, with a card that takes none; returns what is wrong."""
     with tempfile.TemporaryDirectory() as temporary:
-        said = subprocess.run([BIN / "aquarama_gpu_bench", "--out", temporary, "--only", *TIMED], capture_output=True,
+        said = subprocess.run([BIN / "aquarama_gpu_bench", "--out", temporary, "--only", wall], capture_output=True,
                               text=True, cwd=ROOT, env=os.environ | DRIVERS["navi21"][1])
-    shown = 0
+    shown = False
     for line in said.stdout.splitlines():
         if frame := re.match(r"(gpu/\S+) +frame .*cpu +(\S+) ms", line):
             print(f"{frame[1]}: {frame[2]} ms of the processor a frame", flush=True)
-            shown += 1
+            shown = True
         elif stage := re.match(r" +(.+?) +\S+ ms, without pixels .*; cpu +(\S+);", line):
             print(f"    {stage[1]:<14} {stage[2]} ms")
-    return [] if shown == len(TIMED) else [f"{shown} of {len(TIMED)} walls were timed: {said.stderr[-500:]}"]
+    return [] if shown and said.returncode == 0 else [f"{wall} was not timed: {said.stderr[-500:]}"]
 
 
 def main():
@@ -190,7 +191,7 @@ def main():
     names = options.only or (list(DRIVERS) if options.soak else ["navi21"])
     found = sum((try_driver(name) for name in names), [])
     if options.soak:
-        times = print_times()
+        times = sum((print_time(wall) for wall in TIMED), [])
         for problem in times:
             print(f"WRONG: {problem}")
         found += times
