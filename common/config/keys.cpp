@@ -53,7 +53,7 @@ KeyFile readOwnKey(const fs::path& path) {
     KeyFile key = readKeyFile(path);
     if (key.secretKey.empty())
         throw Error(path.string() + ": another machine was given \"" + key.name +
-                    "\", and alone has its secret; start no node with this file, or make a new " +
+                    "\" and alone has its secret; nobody takes part with this file: make a new " +
                     "key (aquarama keys rotate)");
     return key;
 }

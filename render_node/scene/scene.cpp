@@ -168,7 +168,8 @@ struct SceneRenderer::Parts {
     void setUniforms() const;
     // Draws the shadow maps of the place, once.
     void bakeShadows();
-    // Selects what a view shows of the place. Its pixels are so much finer than the wall's.
+    // Selects what a view shows of the place. finer: how many of its pixels lie along one of the
+    // wall's.
     void cullPlace(float finer) const;
     void drawSolids();
     void drawWater() const;

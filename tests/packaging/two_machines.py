@@ -103,7 +103,7 @@ class Hall:
 
     def await_out(self, channel):
         """The node whose channel another machine has now: the master knows its key no more. It keeps its picture, as
-        any node without a master does."""
+        any node without a master does. Its service is removed, as the guide says."""
         log = f"journalctl -b --no-pager -n 3 -u aquarama-node@{channel}"
         wait_until(lambda: "no master answers" in self.master.tell(log), MOST_SECONDS, f"the first {channel} is out")
         self.master.tell(f"rm /etc/aquarama/nodes/{channel}.conf; sync")
