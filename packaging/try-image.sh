@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # try-image.sh [RELEASE]: the image for a stick shows a wall of three channels, installs itself on an empty disk, starts
 # from there, and returns from a broken release to the one before, in an emulated machine. Before that, the boot loader
-# alone obeys the entries of the image (tests/packaging/boot_loader.py); after it, a second machine waits for its
-# channel, and both take releases (tests/packaging/two_machines.py).
+# alone obeys the entries of the image (tests/packaging/boot_loader.py). After it, a small machine loses its power at
+# twenty random moments of an update (tests/packaging/power_cuts.py); then a second machine waits for its channel, and
+# both take releases (tests/packaging/two_machines.py).
 #
 # Takes the packages that packaging/try-packages.sh RELEASE has left in build/debs/RELEASE (trixie by default), and
 # makes an image with a hall of three windows of 160 x 120 pixels with a test pattern. QEMU starts it with UEFI,
@@ -23,7 +24,7 @@ fi
 
 python3 tests/packaging/boot_loader.py
 
-# A hall of three small windows side by side, and what an emulated machine needs: more time.
+# A hall of three small windows side by side, and what an emulated machine needs: few pictures, and more time.
 make_hall() {
     local hall=$work/hall channel x=0
     local units=$hall/etc/systemd/system
@@ -32,7 +33,7 @@ make_hall() {
 name: "hall"
 panorama { width_px: 480 height_px: 120 }
 network { control: "tcp://192.168.7.1:7400" state: "tcp://192.168.7.1:7401" depot: "tcp://192.168.7.1:7403" }
-timing { refresh_hz: 60 present_deadline_s: 60 membership_s: 120 }
+timing { refresh_hz: 5 present_deadline_s: 60 membership_s: 120 }
 scene: "/usr/share/aquarama/config/scenes/empty_sea.txtpb"
 RIG
     for channel in left middle right; do
@@ -144,6 +145,9 @@ keys() {
     for ((i = 0; i < ${#1}; ++i)); do tell monitor "sendkey ${1:i:1}"; done
     tell monitor "sendkey ret"
 }
+
+# A small machine with the same kernel, boot loader and programs of releases.
+python3 tests/packaging/power_cuts.py "$image" "$work/show.key"
 
 # Two machines and a cable: one shows the hall, the other waits for its channel; then both take releases.
 python3 tests/packaging/two_machines.py "$image" build/image/hall build/image "$work/show.key"

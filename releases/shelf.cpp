@@ -15,15 +15,22 @@ fs::path Shelf::folderOf(const std::string& version) const {
     return system_ / "aquarama" / version;
 }
 
-std::vector<BootEntry> Shelf::entries() const {
-    std::vector<BootEntry> entries;
+std::vector<fs::path> Shelf::entryFiles() const {
     if (!fs::is_directory(entryFolder()))
         throw Error(entryFolder().string() + ": is not there; name the system partition's folder");
-    for (const auto& file : fs::directory_iterator(entryFolder())) {
-        auto entry = entryOf(file.path().filename().string());
-        if (!entry) continue;
-        entry->release = idIn(folderOf(entry->release.version));
-        entries.push_back(*entry);
+    std::vector<fs::path> files;
+    for (const auto& file : fs::directory_iterator(entryFolder()))
+        if (entryOf(file.path().filename().string())) files.push_back(file.path());
+    return files;
+}
+
+std::vector<BootEntry> Shelf::entries() const {
+    std::vector<BootEntry> entries;
+    for (const fs::path& file : entryFiles()) {
+        if (fs::is_empty(file)) continue;
+        BootEntry entry = *entryOf(file.filename().string());
+        entry.release = idIn(folderOf(entry.release.version));
+        entries.push_back(entry);
     }
     return entries;
 }
@@ -36,6 +43,8 @@ std::vector<ReleaseId> Shelf::good() const {
 }
 
 void Shelf::change(const std::vector<BootStep>& steps, const Machine& machine) const {
+    for (const fs::path& file : entryFiles())
+        if (fs::is_empty(file)) removeDurably(file);
     for (const BootStep& step : steps) {
         const fs::path file = entryFolder() / step.entry.file;
         if (step.what == BootStep::What::Rename) {

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/base/durable.h"
 
+#include <cerrno>
+
 #include <fcntl.h>
+#include <linux/magic.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
 #include "common/base/log.h"
@@ -13,17 +17,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Throws Error, which names `path`, after a failure or where the folder cannot be synchronised.
+// Throws Error, which names `path`, after a failure or where its folder cannot be synchronised.
 void finish(const fs::path& path, const std::error_code& failure) {
     if (failure) throw Error(path.string() + ": " + whyNotWritten(failure.value()));
-    const int folder = open(path.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    const bool isSynced = folder >= 0 && fsync(folder) == 0;
-    const int error = errno;
-    if (folder >= 0) close(folder);
-    if (!isSynced) throw Error(path.string() + ": " + whyNotWritten(error));
+    if (!syncFolder(path.parent_path())) throw Error(path.string() + ": " + whyNotWritten(errno));
+}
+
+// Linux's vfat does not write the names of a folder when that is synchronised, and the length of a
+// file that was renamed not before the file is: the new name leads to an empty file until then.
+bool isFat(int file) {
+    struct statfs system {};
+    return fstatfs(file, &system) == 0 && system.f_type == MSDOS_SUPER_MAGIC;
 }
 
 }  // namespace
+
+bool syncFolder(const fs::path& folder) {
+    const int file = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (file < 0) return false;
+    const bool isSynced = (isFat(file) ? syncfs(file) : fsync(file)) == 0;
+    const int error = errno;
+    close(file);
+    errno = error;
+    return isSynced;
+}
 
 void renameDurably(const fs::path& file, const std::string& name) {
     std::error_code failure;

@@ -19,6 +19,7 @@
 #include <sys/xattr.h>
 #include <unistd.h>
 
+#include "common/base/durable.h"
 #include "common/base/log.h"
 
 namespace aquarama {
@@ -110,13 +111,6 @@ bool synced(int file) {
 
 fs::path folderOf(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : ".";
-}
-
-void syncFolderOf(const fs::path& file) {
-    const int folder = open(folderOf(file).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (folder < 0) return;
-    synced(folder);  // some file systems do not support it
-    close(folder);
 }
 
 bool isDescriptor(const std::string& name) {
@@ -450,7 +444,8 @@ void OutputFile::finish() {
 void OutputFile::putInPlace() {
     if (isRenamed_ && rename(part_.c_str(), target_.c_str()) == 0) {
         part_.clear();
-        if (safety_ == FileSafety::Durable) syncFolderOf(target_);
+        // Some file systems do not support it.
+        if (safety_ == FileSafety::Durable) static_cast<void>(syncFolder(folderOf(target_)));
         return;
     }
     if (!isThere_) refuse(errno);

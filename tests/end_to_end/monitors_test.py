@@ -134,8 +134,8 @@ class ThreeMonitors(unittest.TestCase):
         self.folder.cleanup()
 
     def rig(self, connectors):
-        """The desk on whole monitors, at these connectors from left to right."""
-        rig = rig_on_free_ports(self.folder.name)
+        """The desk on whole monitors, at these connectors from left to right, with a scene that is soon prepared."""
+        rig = rig_on_free_ports(self.folder.name, replace=[(r"scenes/reef", "scenes/empty_sea")])
         names = iter(connectors)
         rig.write_text(re.sub(r"mode: WINDOW[^}]*", lambda _: f"mode: FULLSCREEN {next(names)} ", rig.read_text()))
         return rig
@@ -283,7 +283,9 @@ class ThreeTelevisions(unittest.TestCase):
         if self.shots:
             shutil.copy(self.rig, self.shots)
         text = self.rig.read_text()
-        # Beside other shows of this machine, and without a graphics card.
+        # Beside other shows of this machine, and without a graphics card: a scene that is soon prepared.
+        text, count = re.subn(r'(scene: "[^"]*)reef', r"\1empty_sea", text)
+        self.assertEqual(count, 1)
         for port, other in zip((7400, 7401, 7402, 7480), free_ports(4)):
             text = text.replace(str(port), str(other))
         self.rig.write_text(text.replace("membership_s: 1", "present_deadline_s: 2 membership_s: 5"))

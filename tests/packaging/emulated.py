@@ -40,10 +40,11 @@ def partitions(disk):
 
 
 class Machine:
-    """One of them, with a disk. `ports`: of UDP, its own end of a cable and the other one."""
+    """One of them, with a disk. `ports`: of UDP, its own end of a cable and the other one. `drives`: more of them, as
+    QEMU names them."""
 
-    def __init__(self, folder, name, disk, ports):
-        self.folder, self.name, self.disk, self.ports = folder / name, name, disk, ports
+    def __init__(self, folder, name, disk, ports, drives=()):
+        self.folder, self.name, self.disk, self.ports, self.drives = folder / name, name, disk, ports, drives
         self.folder.mkdir()
         self.process = None
 
@@ -93,8 +94,10 @@ class Machine:
     def power_on(self):
         variables, serial, monitor, shell = (self.folder / name for name in ("vars", "serial", "monitor", "shell"))
         shutil.copy("/usr/share/OVMF/OVMF_VARS.fd", variables)
+        serial.write_bytes(b"")  # what it said before is over
         drives = (f"if=pflash,format=raw,unit=0,readonly=on,file={FIRMWARE}",
-                  f"if=pflash,format=raw,unit=1,file={variables}", f"file={self.disk},format=raw,if=virtio")
+                  f"if=pflash,format=raw,unit=1,file={variables}", f"file={self.disk},format=raw,if=virtio",
+                  *self.drives)
         end = "socket,id=wire,localaddr=127.0.0.1:{},udp=127.0.0.1:{}".format(*self.ports)
         card = "virtio-net,netdev=wire,mac=52:54:00:00:{:02x}:{:02x}".format(*divmod(self.ports[0], 256))
         self.process = subprocess.Popen(

@@ -120,6 +120,7 @@ class Hall:
             called("mcopy", "-n", "-i", self.master.system(), f"::aquarama/{self.version}/filesystem.squashfs",
                    self.folder)
             called("unsquashfs", "-q", "-n", "-d", tree, self.folder / "filesystem.squashfs")
+            shutil.rmtree(tree / "usr/lib/firmware")  # of no use here, and long to copy
             shutil.copy(tree / "usr/bin/aquarama-node", tree / "usr/lib/aquarama/aquarama-node")
             (self.folder / "blind.c").write_text(BLIND)
             called("cc", "-shared", "-fPIC", "-o", tree / "usr/lib/aquarama/blind.so", self.folder / "blind.c",
@@ -145,7 +146,7 @@ class Hall:
     def begin_depot(self):
         """The second machine follows it by itself, as its key names it."""
         self.master.tell("echo 'FOLLOW=\"--key /etc/aquarama/keys/hall/crew.key\"' >/etc/aquarama/follow.conf; "
-                         "echo 'DEPOT=\"--frames 20 --seconds 600\"' >/etc/aquarama/depot.conf; "
+                         "echo 'DEPOT=\"--frames 20 --seconds 900\"' >/etc/aquarama/depot.conf; "
                          "install -d -o aquarama -g aquarama /var/lib/aquarama/releases; sync; "
                          "systemctl start --no-block aquarama-depot aquarama-follow")
         self.await_status(f"all run {re.escape(self.version)}")

@@ -228,7 +228,7 @@ class OnAShelf : public testing::Test {
             write(system_ / "aquarama" / version / "vmlinuz", version);
             signRelease(system_ / "aquarama" / version, ++serial_, keys_.secretPem, "show.key");
         }
-        write(entries_ / "aquarama-1.0.conf", "");
+        write(entries_ / "aquarama-1.0.conf", "entry 1.0 10\n");
         write(entries_ / "debian.conf", "");
     }
     std::set<std::string> names() const {
@@ -276,6 +276,21 @@ TEST_F(OnAShelf, roomIsMadeOnlyBesideAGoodRelease) {
     shelf_.keepOnly({new_, {"1.2", 12}}, machine_);
     EXPECT_EQ(names(), (std::set<std::string>{"aquarama-1.1.conf", "debian.conf"}));
     EXPECT_FALSE(fs::exists(system_ / "aquarama/1.0"));
+}
+
+// FAT may keep the new name of a file before it keeps its length.
+TEST_F(OnAShelf, whatACutHasLeftEmptyIsNoEntry) {
+    write(entries_ / "aquarama-1.1+3.conf", "");
+    EXPECT_EQ(shelf_.entries().size(), 1U);
+    start(new_);
+    EXPECT_FALSE(fs::is_empty(entries_ / "aquarama-1.1+3.conf"));
+    // The cut comes as the release is counted as good.
+    fs::remove(entries_ / "aquarama-1.1+3.conf");
+    write(entries_ / "aquarama-1.1.conf", "");
+    EXPECT_EQ(shelf_.good(), std::vector{old_});
+    start(new_);
+    EXPECT_EQ(names(),
+              (std::set<std::string>{"aquarama-1.0.conf", "aquarama-1.1+3.conf", "debian.conf"}));
 }
 
 TEST_F(OnAShelf, nothingIsWrittenWhereTheMachineFails) {

@@ -120,6 +120,8 @@ class Hall {
     void act(std::size_t number) {
         PretendedMachine& machine = machines[number];
         if (!machine.steps.empty()) {
+            if (machine.steps.front().what == BootStep::What::Rename && chance(cutRenames))
+                return cutDuringRename(machine);
             change(machine, machine.steps.front());
             machine.steps.pop_front();
         } else if (machine.mustRemember) {
@@ -134,6 +136,13 @@ class Hall {
         } else {
             report(number);
         }
+    }
+
+    // FAT has lost the old name, and the new one leads to an empty file: it counts as no entry.
+    void cutDuringRename(PretendedMachine& machine) {
+        change(machine, {BootStep::What::Remove, machine.steps.front().entry});
+        powerOff(machine);
+        powerOn(machine);
     }
 
     void report(std::size_t number) {
@@ -230,7 +239,7 @@ class Hall {
     std::optional<Rollout> depot;
     RolloutState kept;  // on its disk
     double now = 1000;
-    double lost = 0, crashes = 0;
+    double lost = 0, crashes = 0, cutRenames = 0;
     std::mt19937 random;
 };
 
@@ -354,6 +363,7 @@ TEST(Rollout, isNeverMixedNeverNeitherNeverStuck) {
             hall.machines[seed % hall.machines.size()].fault = static_cast<Fault>(seed / 3 % 5);
         hall.lost = seed % 2 == 0 ? 0 : 0.2;
         hall.crashes = seed % 5 == 0 ? 0.02 : 0;
+        hall.cutRenames = seed % 4 == 0 ? 0.5 : 0;
         std::uint64_t serial = 10;
         for (int step = 0; step < 8000 && !testing::Test::HasFatalFailure(); ++step) {
             PretendedMachine& machine = hall.machines[hall.random() % hall.machines.size()];
@@ -365,7 +375,7 @@ TEST(Rollout, isNeverMixedNeverNeitherNeverStuck) {
             if (hall.chance(0.001)) hall.ask(&Rollout::back);
             hall.pass(hall.chance(0.001) ? 400 : 0.4);
         }
-        hall.lost = hall.crashes = 0;
+        hall.lost = hall.crashes = hall.cutRenames = 0;
         for (PretendedMachine& machine : hall.machines)
             if (!machine.isOn) hall.powerOn(machine);
         hall.runFor(4000);
