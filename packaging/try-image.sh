@@ -24,7 +24,7 @@ fi
 
 python3 tests/packaging/boot_loader.py
 
-# A hall of three small windows side by side, and what an emulated machine needs: few pictures, and more time.
+# A hall of three small windows side by side, and what an emulated machine needs: more time.
 make_hall() {
     local hall=$work/hall channel x=0
     local units=$hall/etc/systemd/system
@@ -33,7 +33,7 @@ make_hall() {
 name: "hall"
 panorama { width_px: 480 height_px: 120 }
 network { control: "tcp://192.168.7.1:7400" state: "tcp://192.168.7.1:7401" depot: "tcp://192.168.7.1:7403" }
-timing { refresh_hz: 5 present_deadline_s: 60 membership_s: 120 }
+timing { refresh_hz: 60 present_deadline_s: 60 membership_s: 120 }
 scene: "/usr/share/aquarama/config/scenes/empty_sea.txtpb"
 RIG
     for channel in left middle right; do
