@@ -23,8 +23,6 @@ void finish(const fs::path& path, const std::error_code& failure) {
     if (!syncFolder(path.parent_path())) throw Error(path.string() + ": " + whyNotWritten(errno));
 }
 
-// Linux's vfat does not write the names of a folder when that is synchronised, and the length of a
-// file that was renamed not before the file is: the new name leads to an empty file until then.
 bool isFat(int file) {
     struct statfs system {};
     return fstatfs(file, &system) == 0 && system.f_type == MSDOS_SUPER_MAGIC;
@@ -32,6 +30,8 @@ bool isFat(int file) {
 
 }  // namespace
 
+// On FAT, Linux writes no names when a folder is synchronised, and the length of a renamed file only
+// when that file is. So the whole file system is synchronised there.
 bool syncFolder(const fs::path& folder) {
     const int file = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (file < 0) return false;

@@ -302,8 +302,8 @@ class ThreeTelevisions(unittest.TestCase):
             wait_until(lambda: self.frames() >= 60, 300, "a second of the reef")
             self.display.save(Path(self.shots, "televisions_reef.png"))
             self.end_show()
-            aquarama("run", self.rig, "--headless", "--quality", "medium", "--frames", 61, "--snapshot", self.shots,
-                     timeout=600)
+            aquarama("run", self.rig, "--scene", ROOT / "config/scenes/reef.txtpb", "--headless", "--quality", "medium",
+                     "--frames", 61, "--snapshot", self.shots, timeout=600)
 
 
 class Outputs(unittest.TestCase):

@@ -35,6 +35,12 @@ def wait_until(condition, seconds, what):
     return said
 
 
+def sign_release(folder, version, key, serial):
+    """As packaging/build-image does it."""
+    called("bash", "-euc", f"source <(sed -n '/^sign()/,/^}}/p' packaging/build-image); key={key} version={version}; "
+           f"sign {folder} {serial}", cwd=ROOT)
+
+
 def partitions(disk):
     return json.loads(called("sfdisk", "--json", disk))["partitiontable"]["partitions"]
 

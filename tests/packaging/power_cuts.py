@@ -18,7 +18,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from emulated import ROOT, Machine, called, partitions, wait_until
+from emulated import ROOT, Machine, called, partitions, sign_release, wait_until
 
 MOST_SECONDS = 600  # from the power to the end of an update
 SYSTEM_MIB, DATA_MIB = 300, 200
@@ -158,14 +158,12 @@ class Update:
         for file in ("vmlinuz", "initrd.img"):
             shutil.copy(self.folder / file, folder)
         (folder / "filesystem.squashfs").write_bytes(random.randbytes(20_000_000))
-        sign = (f"source <(sed -n '/^sign()/,/^}}/p' packaging/build-image); key={self.key} version={release}; "
-                f"sign {folder} {serial}")
-        called("bash", "-euc", sign)
+        sign_release(folder, release, self.key, serial)
 
     def make_disk(self):
         with open(self.disk, "wb") as disk:
             disk.truncate((SYSTEM_MIB + DATA_MIB + 2) << 20)
-        called("packaging/image/partition", self.disk, SYSTEM_MIB)
+        called(ROOT / "packaging/image/partition", self.disk, SYSTEM_MIB)
         called("mkfs.vfat", "-F", 32, "--offset", 2048, self.disk, SYSTEM_MIB << 10)
         system = f"{self.disk}@@{2048 * 512}"
         tree = self.folder / "system"

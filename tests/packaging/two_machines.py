@@ -21,7 +21,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from emulated import ROOT, Machine, called, partitions, read_png, wait_until
+from emulated import ROOT, Machine, called, partitions, read_png, sign_release, wait_until
 
 MOST_SECONDS = 1800  # until a picture is there
 CABLE = {"master": (7490, 7491), "spare": (7491, 7490)}
@@ -120,7 +120,7 @@ class Hall:
             called("mcopy", "-n", "-i", self.master.system(), f"::aquarama/{self.version}/filesystem.squashfs",
                    self.folder)
             called("unsquashfs", "-q", "-n", "-d", tree, self.folder / "filesystem.squashfs")
-            shutil.rmtree(tree / "usr/lib/firmware")  # of no use here, and long to copy
+            shutil.rmtree(tree / "usr/lib/firmware", ignore_errors=True)  # of no use here, and long to copy
             shutil.copy(tree / "usr/bin/aquarama-node", tree / "usr/lib/aquarama/aquarama-node")
             (self.folder / "blind.c").write_text(BLIND)
             called("cc", "-shared", "-fPIC", "-o", tree / "usr/lib/aquarama/blind.so", self.folder / "blind.c",
@@ -132,9 +132,7 @@ class Hall:
         called("mksquashfs", tree, release / "filesystem.squashfs", "-comp", "zstd", "-Xcompression-level", "3",
                "-no-progress")
         shutil.copy(tree / "usr/lib/aquarama/aquarama-node", node)
-        sign = (f"source <(sed -n '/^sign()/,/^}}/p' packaging/build-image); key={self.key} version={version}; "
-                f"sign {release} $(date +%s)")
-        subprocess.run(["bash", "-euc", sign], check=True)
+        sign_release(release, version, self.key, int(time.time()))
         self.master.put_in_data(release, "/var/lib/aquarama/releases")
 
     def status(self):
@@ -197,7 +195,7 @@ class Hall:
 
 def main(image, pictures, screens, key, cuts="2"):
     with tempfile.TemporaryDirectory(prefix="aquarama-", dir="/var/tmp") as folder:
-        hall = Hall(Path(folder), Path(image), Path(pictures), Path(screens), key)
+        hall = Hall(Path(folder), Path(image), Path(pictures), Path(screens), Path(key).resolve())
         try:
             hall.master.power_on()
             hall.await_shown(hall.master, "left", "middle", "right")
