@@ -30,8 +30,8 @@ bool isFat(int file) {
 
 }  // namespace
 
-// On FAT, Linux writes no names when a folder is synchronised, and the length of a renamed file only
-// when that file is. So the whole file system is synchronised there.
+// On FAT, Linux writes no names when a folder is synchronised, and the length of a renamed file
+// only when that file is. So the whole file system is synchronised there.
 bool syncFolder(const fs::path& folder) {
     const int file = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (file < 0) return false;
