@@ -176,7 +176,6 @@ namespace {
 // Physical parameters. Here rings count from 1, as in the paper and in the species files.
 
 constexpr int kLastHeadNode = 8;       // the last node of ring 2
-constexpr int kFirstTailNode = 13;     // the first node of ring 4
 constexpr std::size_t kFirstTip = 21;  // the dorsal tip; the ventral one follows
 
 // Nose at the origin, tips of the tail at x = -1; the four corners of a ring in the order of
@@ -270,6 +269,12 @@ BiomechanicalFish makeBiomechanicalFish(const config::Species& species) {
             species.water.drag * face.weight * (isHead ? species.water.frontFactor : 1)};
     }
     return fish;
+}
+
+glm::dvec3 meanOf(const BiomechanicalFish& fish, const NodeVectors& vectors) {
+    glm::dvec3 mean{};
+    for (std::size_t i = 0; i < vectors.size(); ++i) mean += fish.masses.at(i) * vectors.at(i);
+    return mean;
 }
 
 FishState stateAtRest(const BiomechanicalFish& fish) {

@@ -23,6 +23,7 @@ namespace aquarama::capture {
 inline constexpr int kUnits = 91;
 inline constexpr int kMuscles = 12;
 inline constexpr int kDragFaces = 78;
+inline constexpr int kFirstTailNode = 13;  // of ring 4
 
 // A normal unit lies on the surface of the body, a cross unit braces a ring or a face against
 // shear. A muscle is a unit along the body whose rest length a controller shortens.
@@ -185,6 +186,8 @@ struct FishState {
 
 // Throws Error when the springs do not hold the skeleton's shape, see freeShapeChanges().
 [[nodiscard]] BiomechanicalFish makeBiomechanicalFish(const config::Species& species);
+// Of the nodes, by their masses: of places the centre of mass, of velocities its velocity.
+[[nodiscard]] glm::dvec3 meanOf(const BiomechanicalFish& fish, const NodeVectors& vectors);
 // At the origin, straight, without motion.
 [[nodiscard]] FishState stateAtRest(const BiomechanicalFish& fish);
 

@@ -107,8 +107,6 @@ namespace {
 constexpr std::array<int, 4> kLeftFinRoot{1, 4, 5, 8};
 constexpr std::array<int, 4> kRightFinRoot{2, 3, 6, 7};
 
-constexpr int kFirstTailNode = 13;  // the first node of ring 4
-
 // Activations, 0 to 1, by UnitKind and Side.
 using Activations = std::array<std::array<double, 3>, 5>;
 

@@ -16,6 +16,7 @@
 #include "capture/motor_controllers.h"
 #include "capture/speed_response.h"
 #include "capture/turn.h"
+#include "common/base/units.h"
 
 namespace aquarama::capture {
 
@@ -178,8 +179,7 @@ namespace {
 
 // Tables.
 
-constexpr double kDegrees = 180 / std::numbers::pi;  // in a radian
-constexpr std::array kGaits{"slow", "medium", "fast"};
+constexpr std::array kGaitNames{"slow", "medium", "fast"};
 
 std::string plainName(const config::Species& species) {
     std::string name = species.name;
@@ -200,9 +200,9 @@ std::string gaitTableRows(const config::Species& species) {
     const std::array gaits{species.swim.slow, species.swim.medium, species.swim.fast};
     std::ostringstream rows;
     rows << std::fixed << std::setprecision(2);
-    for (std::size_t i = 0; i < kGaits.size(); ++i) {
+    for (std::size_t i = 0; i < kGaitNames.size(); ++i) {
         const GaitFigures g = steadyFigures(species, gaits.at(i));
-        rows << "| " << (i == 0 ? plainName(species) : "") << " | " << kGaits.at(i) << " | "
+        rows << "| " << (i == 0 ? plainName(species) : "") << " | " << kGaitNames.at(i) << " | "
              << g.beatHertz << " | " << gaits.at(i).gain << " | " << g.swum.speedBodyLengths
              << " | " << g.swum.strideBodyLengths << " | ";
         if (gaits.at(i).rows > 0) {
@@ -230,7 +230,7 @@ std::string turnTableRow(const config::Species& species) {
          {motion::Action::TurnLeftGradual, motion::Action::TurnLeftSharp})
         for (const TurnSpread& spread : spreads)
             if (spread.turn == turn)
-                row << ' ' << spread.least() * kDegrees << "–" << spread.most() * kDegrees << " |";
+                row << ' ' << degreesOf(spread.least()) << "–" << degreesOf(spread.most()) << " |";
     return row.str() + '\n';
 }
 

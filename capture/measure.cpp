@@ -46,11 +46,11 @@ glm::dvec3 stationOf(const NodeVectors& nodes, std::size_t station) {
 // Radians by body length: the slope of the least-squares line through the phases from ring 3 to the
 // tail.
 double slopeBehindRing2(const BodyWave& wave) {
-    constexpr double kCount = kWaveStations - kRing3;
+    constexpr double kStations = kWaveStations - kRing3;
     double s = 0, p = 0, ss = 0, sp = 0;
     for (std::size_t i = kRing3; i < kWaveStations; ++i) {
-        s += wave.stations.at(i) / kCount;
-        p += wave.phases.at(i) / kCount;
+        s += wave.stations.at(i) / kStations;
+        p += wave.phases.at(i) / kStations;
     }
     for (std::size_t i = kRing3; i < kWaveStations; ++i) {
         ss += (wave.stations.at(i) - s) * (wave.stations.at(i) - s);

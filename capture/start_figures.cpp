@@ -25,13 +25,6 @@ namespace aquarama::capture {
 
 namespace {
 
-// Of the nodes, by their masses, the sum of which is 1.
-glm::dvec3 meanOf(const BiomechanicalFish& fish, const NodeVectors& nodes) {
-    glm::dvec3 mean{};
-    for (std::size_t i = 0; i < nodes.size(); ++i) mean += fish.masses[i] * nodes[i];
-    return mean;
-}
-
 // The work on the springs, at the lengths that they have, of a change of their stiffness and rest
 // length; fish masses (body lengths / s)^2.
 double workOf(const BiomechanicalFish& fish,

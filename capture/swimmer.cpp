@@ -20,13 +20,6 @@ double mixAngles(double from, double to, double share) {
     return from + share * std::remainder(to - from, 2 * std::numbers::pi);
 }
 
-// Weighted by mass: of places the centre of mass, of velocities its velocity.
-glm::dvec3 meanOf(const BiomechanicalFish& fish, const NodeVectors& vectors) {
-    glm::dvec3 mean{};
-    for (std::size_t i = 0; i < vectors.size(); ++i) mean += fish.masses.at(i) * vectors.at(i);
-    return mean;
-}
-
 }  // namespace
 
 // Body x is the nose's direction. Left is -z, so the heading is positive there. The roll compares

@@ -1,28 +1,12 @@
 # The functions that every CMakeLists.txt here uses. Each folder is one static library and has one test program.
 
-# Headers that most sources include, parsed once. A source still includes what it uses: the dev preset builds the
-# programs without this.
-option(AQUARAMA_PCH "compile sooner: the headers that most sources include, and the commands of a program, once" OFF)
-set(AQUARAMA_COMMON_HEADERS
-  <algorithm> <array> <cmath> <cstddef> <cstdint> <filesystem> <functional> <memory> <numbers> <optional> <span>
-  <string>
-  <string_view> <utility> <vector>
-  <glm/common.hpp> <glm/geometric.hpp> <glm/gtc/quaternion.hpp> <glm/mat3x3.hpp> <glm/mat4x4.hpp> <glm/matrix.hpp>
-  <glm/vec2.hpp> <glm/vec3.hpp> <glm/vec4.hpp>)
-
-# aquarama_precompiled(aquarama_headers HEADERS <vector> ... [LINK targets...] [OPTIONS flags...]): headers for others
-# to reuse that are compiled with the same flags.
-function(aquarama_precompiled name)
-  cmake_parse_arguments(ARG "" "" "HEADERS;LINK;OPTIONS" ${ARGN})
-  set(SOURCE ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
-  file(CONFIGURE OUTPUT ${SOURCE} CONTENT "")
-  add_library(${name} STATIC ${SOURCE})
-  target_link_libraries(${name} PRIVATE aquarama_options glm::glm ${ARG_LINK})
-  target_compile_options(${name} PRIVATE -ffp-contract=off ${ARG_OPTIONS})
-  target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
-  # No compiler cache: a precompiled header that it returns in another folder crashes GCC 12.
-  set_target_properties(${name} PROPERTIES CXX_COMPILER_LAUNCHER "")
-endfunction()
+# With CMAKE_UNITY_BUILD so many sources of a folder are compiled as one: what they include is parsed once, which takes
+# less than half the time. In a folder a name of an unnamed namespace therefore stands for one thing. A source still
+# includes what it uses: the dev preset, by hand, and ./test --tidy compile each by itself.
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 16)
+if(CMAKE_UNITY_BUILD)  # GCC takes the sources for headers, and what is a source's own for a mistake
+  add_compile_options(-Wno-subobject-linkage)
+endif()
 
 # aquarama_library(motion SOURCES a.cpp ... [LINK targets...] [PRIVATE targets...] [OPTIMISED])
 # Folders include each other as "common/motion/repertoire.h". OPTIMISED: fast in every preset, and no contraction
@@ -35,16 +19,6 @@ function(aquarama_library name)
   target_compile_options(aquarama_${name} PRIVATE -ffp-contract=off)
   if(ARG_OPTIMISED)
     target_compile_options(aquarama_${name} PRIVATE -O3)
-  endif()
-  if(AQUARAMA_PCH)
-    # With a precompiled <string>, GCC 12 gives these two warnings falsely; builds without precompiled headers keep
-    # them.
-    target_compile_options(aquarama_${name} PRIVATE -Wno-stringop-overflow -Wno-array-bounds)
-    if(ARG_OPTIMISED)
-      target_precompile_headers(aquarama_${name} REUSE_FROM aquarama_headers_optimised)
-    else()
-      target_precompile_headers(aquarama_${name} REUSE_FROM aquarama_headers)
-    endif()
   endif()
 endfunction()
 
@@ -69,7 +43,7 @@ function(aquarama_schema name)
   target_compile_options(aquarama_${name}_schema PRIVATE -w)
   target_include_directories(aquarama_${name}_schema SYSTEM PUBLIC ${CMAKE_BINARY_DIR})
   target_link_libraries(aquarama_${name}_schema PUBLIC protobuf::libprotobuf ${ARG_LINK})
-  set_target_properties(aquarama_${name}_schema PROPERTIES CXX_CLANG_TIDY "")
+  set_target_properties(aquarama_${name}_schema PROPERTIES CXX_CLANG_TIDY "" UNITY_BUILD OFF)
 endfunction()
 
 # aquarama_pages(console RESULT): in RESULT the source of aquarama::console::embeddedPages(), the files of ./pages.

@@ -18,7 +18,6 @@ namespace aquarama {
 
 namespace {
 
-constexpr double kDegree = kRadiansPerDegree<double>;
 constexpr double kMetresAnInch = 0.0254;
 constexpr double kOverlap =
     0.2;  // share of a projector's part that overlaps with its neighbours, both together

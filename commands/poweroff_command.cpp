@@ -22,7 +22,7 @@ namespace {
 
 // How long nodes of machines that were told may still be there.
 constexpr auto kLongestGoing = std::chrono::seconds(30);
-constexpr auto kBetweenLooks = std::chrono::milliseconds(500);
+constexpr auto kBetweenCounts = std::chrono::milliseconds(500);
 
 struct PoweroffOptions {
     std::string rig;
@@ -70,7 +70,7 @@ void awaitGone(ask::RequestClient& master, const std::vector<std::string>& chann
         const v1::StatusReply status = master.status();
         if (std::ranges::none_of(channels, [&](const auto& one) { return isThere(status, one); }))
             return;
-        std::this_thread::sleep_for(kBetweenLooks);
+        std::this_thread::sleep_for(kBetweenCounts);
     }
     logWarning("nodes are still there after {} s; this machine goes off", kLongestGoing.count());
 }

@@ -69,7 +69,7 @@ struct SearchOptions {
 };
 
 // The bytes of the whole file; empty where it cannot be read.
-std::string textOf(const fs::path& path) {
+std::string speciesText(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
 }
@@ -91,7 +91,7 @@ struct SearchedSpecies {
 SearchedSpecies readSearched(const SearchOptions& options) {
     const fs::path file =
         capture::speciesFiles({options.species}, configFolder(options.config)).front();
-    const std::string text = textOf(file);
+    const std::string text = speciesText(file);
     return {text, config::parseSpecies(text, file.string())};
 }
 

@@ -14,6 +14,7 @@
 #include "common/base/amounts.h"
 #include "common/base/counted.h"
 #include "common/base/dates.h"
+#include "common/base/units.h"
 #include "common/config/calendar.h"
 
 namespace aquarama {
@@ -32,10 +33,6 @@ StepFinding toDo(std::string what, std::string todo) {
 
 std::string joined(const std::vector<std::string>& parts) {
     return fmt::format("{}", fmt::join(parts, "; "));
-}
-
-double degreesOf(double radians) {
-    return radians * 180 / std::numbers::pi;
 }
 
 // The panels of a rig by their size.

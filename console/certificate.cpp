@@ -53,7 +53,7 @@ std::string textOf(BIO* memory) {
 }
 
 // For its owner alone, whole or not at all.
-void write(const std::filesystem::path& path, const std::string& text) {
+void writePrivateText(const std::filesystem::path& path, const std::string& text) {
     writePrivate(path, std::as_bytes(std::span(text)));
 }
 
@@ -62,14 +62,14 @@ void writeKey(const std::filesystem::path& path, EVP_PKEY* key) {
     const Memory memory(BIO_new(BIO_s_mem()));
     require(PEM_write_bio_PrivateKey(memory.get(), key, nullptr, nullptr, 0, nullptr, nullptr) ==
             1);
-    write(path, textOf(memory.get()));
+    writePrivateText(path, textOf(memory.get()));
 }
 
 // As PEM, which browsers and tablets install.
 void writeCertificate(const std::filesystem::path& path, X509* certificate) {
     const Memory memory(BIO_new(BIO_s_mem()));
     require(PEM_write_bio_X509(memory.get(), certificate) == 1);
-    write(path, textOf(memory.get()));
+    writePrivateText(path, textOf(memory.get()));
 }
 
 // Throws Error where the file cannot be read; null where it holds no such object.

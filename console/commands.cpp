@@ -20,11 +20,8 @@ namespace {
 
 using ask::Answer;
 using ask::Outcome;
+using ask::refused;
 using What = browser::Command::WhatCase;
-
-Answer refused(std::string why) {
-    return {Outcome::Refused, std::move(why)};
-}
 
 // What somebody must be for a command; empty for what is none.
 std::optional<ConsoleRole> roleFor(const browser::Command& command) {

@@ -18,6 +18,7 @@
 #include "common/config/rig.h"
 #include "common/config/text_file.h"
 #include "common/formats/archive.h"
+#include "console/json_fields.h"
 #include "console/run_aquarama.h"
 
 namespace aquarama::console {
@@ -44,18 +45,6 @@ std::string endOf(const fs::path& path, std::uintmax_t most) {
     return begin == 0 ? text : text.substr(std::min(text.find('\n'), text.size() - 1) + 1);
 }
 
-// Empty where the field is missing or no text.
-std::string textIn(const json& object, const char* field) {
-    const auto found = object.find(field);
-    return found != object.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
-// 0 where the field is missing or no number.
-float numberIn(const json& object, const char* field) {
-    const auto found = object.find(field);
-    return found != object.end() && found->is_number() ? found->get<float>() : 0;
-}
-
 // A whole file of JSON; null where there is none, or it is something else.
 json jsonIn(const fs::path& file) {
     constexpr std::uintmax_t kMostBytes = 1U << 20U;
@@ -72,9 +61,9 @@ void addKept(browser::Calibrations& list, const FileVersion& from) {
     if (!figures.is_object()) return;
     kept.set_verdict(textIn(figures, "verdict"));
     kept.set_cause(textIn(figures, "cause"));
-    kept.set_overlap_rms_px(numberIn(figures, "overlap_rms_px"));
-    kept.set_overlap_max_px(numberIn(figures, "overlap_max_px"));
-    kept.set_absolute_rms_px(numberIn(figures, "absolute_rms_px"));
+    kept.set_overlap_rms_px(float(numberIn(figures, "overlap_rms_px")));
+    kept.set_overlap_max_px(float(numberIn(figures, "overlap_max_px")));
+    kept.set_absolute_rms_px(float(numberIn(figures, "absolute_rms_px")));
 }
 
 // As drift has left it beside the wall file; nothing where it never looked.
@@ -86,12 +75,12 @@ void addDrift(browser::Calibrations& list, fs::path wallFile) {
     drift.set_looked(textIn(look, "looked"));
     drift.set_learned(textIn(look, "learned"));
     drift.set_camera_lost(look.value("camera_lost", json()) == true);
-    drift.set_camera_moved_px(numberIn(look, "camera_moved_px"));
+    drift.set_camera_moved_px(float(numberIn(look, "camera_moved_px")));
     for (const json& from : look["channels"]) {
         browser::ChannelDrift& channel = *drift.add_channels();
         channel.set_name(textIn(from, "name"));
         channel.set_verdict(textIn(from, "verdict"));
-        channel.set_shift_px(numberIn(from, "shift_px"));
+        channel.set_shift_px(float(numberIn(from, "shift_px")));
     }
 }
 

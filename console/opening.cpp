@@ -28,7 +28,7 @@ constexpr double kMostHoldHours = 10;
 constexpr double kHourSeconds = 3600;
 
 // Whole or not at all.
-void write(const std::filesystem::path& path, const std::string& text) {
+void writeText(const std::filesystem::path& path, const std::string& text) {
     writeWhole(path, std::as_bytes(std::span(text)));
 }
 
@@ -126,7 +126,7 @@ void Opening::setText(const std::string& text) {
     std::optional<config::Hours> hours;
     v1::Hours form;
     if (!text.empty()) hours = config::parseHours(text, config::kHoursFile, &form);
-    write(folder_ / config::kHoursFile, text);
+    writeText(folder_ / config::kHoursFile, text);
     if (text.empty()) std::filesystem::remove(folder_ / config::kHoursFile);
     text_ = text;
     problem_.clear();

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "console/json_fields.h"
 #include "console/run_aquarama.h"
 
 namespace aquarama::console {
@@ -11,21 +12,10 @@ namespace {
 
 using nlohmann::json;
 
-// Empty where the field is missing or no text.
-std::string textIn(const json& object, const char* field) {
-    const auto found = object.find(field);
-    return found != object.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
 // The version of a release; empty where there is none.
 std::string versionIn(const json& object, const char* field) {
     const auto found = object.find(field);
     return found != object.end() && found->is_object() ? textIn(*found, "version") : "";
-}
-
-double numberIn(const json& object, const char* field) {
-    const auto found = object.find(field);
-    return found != object.end() && found->is_number() ? found->get<double>() : 0;
 }
 
 void add(browser::Releases& releases, const json& from) {

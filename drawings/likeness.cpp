@@ -59,12 +59,12 @@ constexpr int kInner = 5;                   // pixels from the outline that a li
 template <class IsShown>
 void addShown(const Polyline& line, const IsShown& isShown, std::vector<Polyline>& lines) {
     constexpr std::size_t kLeast = 8;
-    constexpr float kGap = 24;  // pixels
+    constexpr float kBetweenRuns = 24;  // pixels
     std::vector<Polyline> runs;
     bool isOpen = false;
     for (const glm::vec2 at : line) {
         const bool goesOn =
-            isOpen || (!runs.empty() && glm::distance(runs.back().back(), at) < kGap);
+            isOpen || (!runs.empty() && glm::distance(runs.back().back(), at) < kBetweenRuns);
         isOpen = isShown(at);
         if (isOpen && !goesOn) runs.emplace_back();
         if (isOpen) runs.back().push_back(at);

@@ -55,9 +55,9 @@ Polyline walk(const Raster& raster, glm::ivec2 start, Raster& taken) {
 
 // The mean over some points before and after, every third point.
 Polyline smoothed(const Polyline& line) {
-    constexpr std::size_t kReach = 5, kStep = 3;
+    constexpr std::size_t kReach = 5, kEvery = 3;
     Polyline smooth;
-    for (std::size_t i = 0; i < line.size(); i += kStep) {
+    for (std::size_t i = 0; i < line.size(); i += kEvery) {
         glm::vec2 sum{};
         for (std::size_t k = 0; k <= 2 * kReach; ++k)
             sum += line[(i + line.size() + k - kReach) % line.size()];

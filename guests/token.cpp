@@ -16,7 +16,7 @@ namespace {
 // Crockford's base 32, without I, L, O and U: five bits a letter.
 constexpr std::string_view kLetters = "0123456789ABCDEFGHJKMNPQRSTVWXYZ";
 constexpr std::size_t kWordLetters = 10;
-constexpr std::uint64_t kDigits = 1000;
+constexpr std::uint64_t kDigitCodes = 1000;
 
 std::uint64_t epochAt(double now) {
     return static_cast<std::uint64_t>(now / DoorTokens::kEpochSeconds);
@@ -30,7 +30,7 @@ std::string wordOf(std::uint64_t mac) {
 
 // Of bits that the word does not show.
 std::string digitsOf(std::uint64_t mac) {
-    return fmt::format("{:03}", (mac >> (5 * kWordLetters)) % kDigits);
+    return fmt::format("{:03}", (mac >> (5 * kWordLetters)) % kDigitCodes);
 }
 
 // In a time that does not tell where they differ.

@@ -12,11 +12,7 @@ namespace {
 
 constexpr double kBetweenReports = 1;  // seconds
 constexpr double kBetweenAsking = 2;   // until a piece is asked for again
-constexpr auto kBetweenLooks = std::chrono::milliseconds(100);
-
-double secondsNow() {
-    return net::secondsIn(net::monotonicNow().time_since_epoch());
-}
+constexpr auto kAgentSleep = std::chrono::milliseconds(100);
 
 // A damaged memory is none: the machine then asks before it shows anything.
 FollowerMemory memoryIn(const std::filesystem::path& file) {
@@ -54,10 +50,10 @@ void Agent::stop() {
 void Agent::run() {
     while (!isOver_) {
         switchChannels();
-        const double now = secondsNow();
+        const double now = net::monotonicSeconds();
         if (now - reportedAt_ >= kBetweenReports) report();
         if (copy_ && now - askedAt_ >= kBetweenAsking) askPiece();
-        channels_->wait(kBetweenLooks);
+        channels_->wait(kAgentSleep);
         while (const auto packet = isOver_ ? std::nullopt : channels_->receiveControl())
             if (const auto message = decode(*packet)) hear(*message);
     }
@@ -65,7 +61,7 @@ void Agent::run() {
 
 // What is shown follows the word of the depot, and ends with its lease.
 void Agent::switchChannels() {
-    const bool mayShow = follower_.mayShow(secondsNow());
+    const bool mayShow = follower_.mayShow(net::monotonicSeconds());
     if (isShown_ == mayShow) return;
     machine_.show(mayShow);
     isShown_ = mayShow;
@@ -79,7 +75,7 @@ std::vector<ReleaseId> Agent::held() const {
 
 // A lease begins before the report leaves. Frames count while a release is on trial.
 void Agent::report() {
-    reportedAt_ = secondsNow();
+    reportedAt_ = net::monotonicSeconds();
     const bool isOnTrial = isShown_ == true && kept_.settled != follower_.booted();
     const MachineReport report{.booted = follower_.booted(),
                                .epoch = follower_.epoch(),
@@ -158,7 +154,7 @@ void Agent::fetch(const ReleaseId& release) {
 }
 
 void Agent::askPiece() {
-    askedAt_ = secondsNow();
+    askedAt_ = net::monotonicSeconds();
     const auto wanted = copy_->wanted();
     v1::DepotMessage message;
     message.mutable_piece_request()->set_version(wanted->version);

@@ -19,13 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kStateFile = "rollout.txtpb";
-constexpr auto kBetweenLooks = std::chrono::milliseconds(250);
+constexpr auto kDepotSleep = std::chrono::milliseconds(250);
 constexpr double kBetweenHours = 10;  // seconds
 constexpr std::size_t kMostTextBytes = 2000;
-
-double secondsNow() {
-    return net::secondsIn(net::monotonicNow().time_since_epoch());
-}
 
 // Epochs of a depot that has lost its state are none that machines remember.
 RolloutState firstState() {
@@ -68,7 +64,10 @@ Depot::Depot(DepotSetup setup, std::unique_ptr<net::MasterChannels> channels)
       channels_{std::move(channels)},
       file_{setup_.folder / kStateFile},
       kept_{keptRollout(file_)},
-      rollout_{setup_.machines.names, kept_.value_or(firstState()), setup_.limits, secondsNow()} {
+      rollout_{setup_.machines.names,
+               kept_.value_or(firstState()),
+               setup_.limits,
+               net::monotonicSeconds()} {
     requireWritableFolder(setup_.folder);
     keepState();
 }
@@ -80,10 +79,10 @@ void Depot::stop() {
 
 void Depot::run() {
     while (!isOver_) {
-        channels_->wait(kBetweenLooks);
+        channels_->wait(kDepotSleep);
         while (const auto from = channels_->receiveControl()) hear(*from);
         static_cast<void>(channels_->discardNoise());
-        const double now = secondsNow();
+        const double now = net::monotonicSeconds();
         rollout_.pass(now);
         goWhenClosed(now);
         keepState();
@@ -124,7 +123,7 @@ v1::DepotMessage Depot::orderFor(const std::string& user, const v1::MachineRepor
         setup_.machines.machineOf.find(setup_.hasKeys ? placeOf(user) : report.place());
     v1::DepotMessage answer;
     if (machine == setup_.machines.machineOf.end()) return answer;
-    const double now = secondsNow();
+    const double now = net::monotonicSeconds();
     rollout_.hear(machine->second, reportIn(report), now);
     keepState();
     write(rollout_.orderFor(machine->second, now), *answer.mutable_order());
@@ -164,7 +163,7 @@ v1::DepotMessage Depot::replyTo(const std::string& user, const v1::DepotRequest&
 
 // A release is checked whole before any machine hears of it.
 void Depot::carryOut(const v1::DepotRequest& request) {
-    const double now = secondsNow();
+    const double now = net::monotonicSeconds();
     switch (request.what()) {
         case v1::DepotRequest::STAGE: {
             if (!isVersion(request.version())) throw Error("name the version of a release");
@@ -181,7 +180,7 @@ void Depot::carryOut(const v1::DepotRequest& request) {
 }
 
 void Depot::describe(v1::DepotReply& reply) const {
-    const double now = secondsNow();
+    const double now = net::monotonicSeconds();
     write(rollout_.state(), *reply.mutable_rollout());
     reply.set_is_ready(rollout_.isReady());
     if (const std::string waits = rollout_.waitingFor(now); !waits.empty())

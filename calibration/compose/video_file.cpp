@@ -31,12 +31,12 @@ struct FreeOutput {
     }
 };
 template <class Owned>
-using Owner = std::unique_ptr<Owned, FreeOutput>;
+using OutputOwner = std::unique_ptr<Owned, FreeOutput>;
 
-Owner<AVFormatContext> newMp4() {
+OutputOwner<AVFormatContext> newMp4() {
     AVFormatContext* made = nullptr;
     avformat_alloc_output_context2(&made, nullptr, "mp4", nullptr);
-    return Owner<AVFormatContext>{made};
+    return OutputOwner<AVFormatContext>{made};
 }
 
 // What FFmpeg's libraries write goes through our file: they call these functions, which must not
@@ -92,7 +92,7 @@ class VideoStream {
     OutputFile file_;
     std::uint64_t at_ = 0;
     std::exception_ptr failure_;
-    Owner<AVIOContext> stream_;
+    OutputOwner<AVIOContext> stream_;
 };
 
 }  // namespace
@@ -102,7 +102,7 @@ struct VideoFile::Output {
     explicit Output(const std::string& path) : stream{path}, file{newMp4()} {}
 
     VideoStream stream;
-    Owner<AVFormatContext> file;
+    OutputOwner<AVFormatContext> file;
     AVStream* video = nullptr;
 };
 

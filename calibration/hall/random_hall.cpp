@@ -24,8 +24,6 @@ namespace aquarama::hall {
 
 namespace {
 
-constexpr double kDegree = kRadiansPerDegree<double>;
-
 // The tangent from a lens's axis to the farthest corner of its picture.
 double farthestTangent(const config::Channel& channel) {
     const config::Projector& lens = channel.projector;

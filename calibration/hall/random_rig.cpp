@@ -22,7 +22,6 @@ namespace aquarama::hall {
 
 namespace {
 
-constexpr double kDegree = kRadiansPerDegree<double>;
 // How much of its own size a picture reaches past the screen's edges.
 constexpr double kOvershoot = 0.07;
 

@@ -18,7 +18,7 @@ namespace aquarama::scan {
 
 namespace {
 
-constexpr float kLeastLight = SmallChannels::kLeastLight;
+constexpr float kLeastChannelLight = SmallChannels::kLeastLight;
 
 bool isScanned(const Evidence& evidence, std::size_t channel) {
     return !evidence.view.channels[channel].place.empty();
@@ -39,7 +39,7 @@ void findClipped(const Evidence& evidence, std::size_t channel, FaultList& fault
 }
 
 void findExposure(const Evidence& evidence, const SmallChannels& channels, FaultList& faults) {
-    if (channels.mostLight() < kLeastLight)
+    if (channels.mostLight() < kLeastChannelLight)
         return faults.add(
             "under_exposed",
             fmt::format("white is only {:.1f} % of the camera's range: open the aperture, "
@@ -63,7 +63,7 @@ void findUnseen(const Evidence& evidence, const SmallChannels& channels, FaultLi
     for (std::size_t c = 0; c < channels.size(); ++c) {
         if (!isScanned(evidence, c) || channels[c].isSeen()) continue;
         const double most = double{channels[c].most};
-        if (most > double{kLeastLight} && most < kLeastSignal * evidence.view.noise)
+        if (most > double{kLeastChannelLight} && most < kLeastSignal * evidence.view.noise)
             reportFaint(c, faults);
         else
             faults.add(

@@ -18,11 +18,6 @@ namespace {
 
 constexpr double kPathGoal = 0.05;  // error at the end of a command, share of the path
 
-// Angles are radians in the errors and degrees in the files.
-double degrees(double radians) {
-    return radians / kRadiansPerDegree<double>;
-}
-
 // Ticks as seconds; empty for nothing.
 std::string secondsIfAny(const std::optional<int>& ticks) {
     if (!ticks) return "";
@@ -53,7 +48,7 @@ void addSummary(std::ostream& csv,
            s.pathErrorAlong,
            s.pathErrorAcross,
            good,
-           degrees(s.headingErrorRms));
+           degreesOf(s.headingErrorRms));
 }
 
 // The mean speed over the beat that ends at a tick, body lengths a second: the distance of the
@@ -108,7 +103,7 @@ std::string commandTable(const Comparison& comparison) {
                              nameOf(manoeuvre),
                              errors.path,
                              errors.pathErrorAtEnd * (staysInPlace(manoeuvre) ? 1 : errors.path),
-                             degrees(errors.headingError),
+                             degreesOf(errors.headingError),
                              100 * errors.shapeWithin);
     }
     return table;
@@ -136,13 +131,13 @@ std::string commandsCsv(std::span<const Fidelity> species) {
                    errors.pathErrorMost,
                    errors.pathErrorAlong,
                    errors.pathErrorAcross,
-                   degrees(errors.turn),
-                   degrees(errors.headingError));
+                   degreesOf(errors.turn),
+                   degreesOf(errors.headingError));
         // The whole script: columns that have no meaning for it are empty.
         const OpenLoopErrors& loose = fidelity.comparison.openLoop;
         csv << fidelity.species << ",open_loop,0," << ticksOf(fidelity.script) / kTicksPerSecond
             << ",,,,,," << loose.path << ',' << loose.distanceAtEnd / loose.path << ','
-            << loose.distanceMost / loose.path << ",,,," << degrees(loose.headingAtEnd) << '\n';
+            << loose.distanceMost / loose.path << ",,,," << degreesOf(loose.headingAtEnd) << '\n';
     }
     return csv.str();
 }
@@ -187,7 +182,7 @@ std::string vocabulariesCsv(std::span<const SpeciesVocabularies> species) {
                    errors.bytes,
                    errors.shapeWithin,
                    errors.pathError,
-                   degrees(errors.turnHeadingError));
+                   degreesOf(errors.turnHeadingError));
     return csv.str();
 }
 

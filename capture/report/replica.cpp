@@ -263,7 +263,7 @@ body::FinPose finPoseOf(const glm::dvec3& fin) {
 }
 
 // A point of a trace. `spread`: how far the pectoral fins brake, as the motor has it.
-TracePoint pointOf(const capture::Swimmer& swimmer, float spread) {
+TracePoint tracePointOf(const capture::Swimmer& swimmer, float spread) {
     const capture::NodeVectors& pose = swimmer.state().positions;
     TracePoint point{.frame = capture::frameOf(pose), .pose = capture::inBodyFrame(pose)};
     glm::dvec3 velocity{};
@@ -293,7 +293,7 @@ Trace traceFish(const config::Species& species, std::span<const TimedOrder> orde
     swimmer.advance(static_cast<int>(std::lround(beats * beatSeconds / swimmer.stepSeconds())));
 
     float spread = 0;
-    Trace trace{pointOf(swimmer, spread)};
+    Trace trace{tracePointOf(swimmer, spread)};
     for (const auto& [order, ticks] : orders) {
         swimmer.give(order);
         const float wanted = order.controller == capture::Controller::Brake ? 1 : 0;
@@ -301,7 +301,7 @@ Trace traceFish(const config::Species& species, std::span<const TimedOrder> orde
             swimmer.advance(stepsPerTick);
             constexpr float kStep = motion::kSpreadStep / 255.0F;
             spread += std::clamp(wanted - spread, -kStep, kStep);
-            trace.push_back(pointOf(swimmer, spread));
+            trace.push_back(tracePointOf(swimmer, spread));
             if (playsOnce(order.controller))
                 trace.back().drive.phase = static_cast<float>(tick + 1) / static_cast<float>(ticks);
         }

@@ -32,11 +32,6 @@ using nlohmann::json;
 
 constexpr std::size_t kViews = 8;  // of each segment, evenly spaced from its start to its end
 
-// The report gives angles in degrees.
-double degrees(double radians) {
-    return radians / kRadiansPerDegree<double>;
-}
-
 // The file: its size and digest are those of the repertoire encoded anew.
 json fileData(const motion::Repertoire& repertoire) {
     const std::vector<std::byte> bytes = motion::encodeRepertoire(repertoire);
@@ -77,8 +72,8 @@ json bodyData(const motion::Repertoire& repertoire) {
 // See Drift.
 json driftData(const motion::ActionSegment& segment, motion::Action action, int repetitions) {
     const Drift drift = driftAfter(segment, isCurve(action) || isTurn(action), repetitions);
-    return {{"heading_degrees", degrees(drift.headingRadians)},
-            {"lean_degrees", degrees(drift.leanRadians)},
+    return {{"heading_degrees", degreesOf(drift.headingRadians)},
+            {"lean_degrees", degreesOf(drift.leanRadians)},
             {"climb", drift.climb}};
 }
 
@@ -101,9 +96,9 @@ json measuresData(const motion::ActionSegment& segment, motion::Action action) {
                          {"nose", m.noseAmplitude},
                          {"wavelength", capture::bodyWave(segment).wavelength}});
     else
-        data.update(json{{"turn_degrees", degrees(m.turnRadians)},
-                         {"turn_rate", degrees(m.turnRate)},
-                         {"peak_turn_rate", degrees(peakTurnRate(segment))},
+        data.update(json{{"turn_degrees", degreesOf(m.turnRadians)},
+                         {"turn_rate", degreesOf(m.turnRate)},
+                         {"peak_turn_rate", degreesOf(peakTurnRate(segment))},
                          {"radius", turnRadius(segment)}});
     return data;
 }

@@ -26,6 +26,11 @@ struct Answer {
     friend bool operator==(const Answer&, const Answer&) = default;
 };
 
+// The answer to an order that was not carried out.
+[[nodiscard]] inline Answer refused(std::string why) {
+    return {Outcome::Refused, std::move(why)};
+}
+
 // The last orders by their request, each with its answer. A value without clock, thread or socket.
 class OrderBook {
   public:

@@ -201,8 +201,7 @@ std::string inAscii(std::string_view text) {
         ascii += *typed;
         at += point.bytes;
     }
-    const std::size_t first = std::min(ascii.find_first_not_of(' '), ascii.size());
-    return ascii.substr(first, ascii.find_last_not_of(' ') + 1 - first);
+    return std::string(trimmed(ascii));
 }
 
 bool isDigitAt(std::string_view text, std::size_t at) {
@@ -307,6 +306,13 @@ bool isInvisible(char32_t code) {
 bool isTypographicQuote(char32_t code) {
     const std::string ascii = code < 0x80 ? "" : asciiFor(code);
     return ascii == "\"" || ascii == "'";
+}
+
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view kBlank = " \t\r\n";
+    const std::size_t first = text.find_first_not_of(kBlank);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(kBlank) + 1 - first);
 }
 
 std::string plainNumber(std::string_view text) {

@@ -31,6 +31,9 @@ struct CodePoint {
 // Whether it is a curly, angled or low quotation mark, typed in place of " or '.
 [[nodiscard]] bool isTypographicQuote(char32_t code);
 
+// Without spaces, tabs and line ends before and behind.
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+
 // The number that a text means, in the form that our readers accept: "2.5" for "2,5", "-3" for
 // "−３", "1000" for "1 000". Empty where the text is not such a number, or already has that form.
 [[nodiscard]] std::string plainNumber(std::string_view text);

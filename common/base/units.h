@@ -11,6 +11,10 @@ namespace aquarama {
 // Radians in a degree. Files and messages use degrees, code uses radians.
 template <class Real>
 inline constexpr Real kRadiansPerDegree = std::numbers::pi_v<Real> / 180;
+inline constexpr double kDegree = kRadiansPerDegree<double>;
+[[nodiscard]] constexpr double degreesOf(double radians) {
+    return radians / kDegree;
+}
 
 // The largest world: readers and decoders refuse larger ones.
 inline constexpr std::uint32_t kMostFish = 1'000'000;
@@ -39,6 +43,10 @@ struct FishId {
 
 // Ticks of the simulation in a second, on every machine.
 inline constexpr double kTicksPerSecond = 60.0;
+inline constexpr double kTicksPerMinute = 60.0 * kTicksPerSecond;
+[[nodiscard]] constexpr float secondsOfTicks(std::uint32_t ticks) {
+    return static_cast<float>(ticks) / static_cast<float>(kTicksPerSecond);
+}
 
 // The state of a pilot's controls at one moment. It is not a change, so the next message replaces a
 // lost one.

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 constexpr const char* kNoteEnding = ".json";
 constexpr std::size_t kMostNoteBytes = 1U << 16U;
 
-fs::path folderOf(fs::path file) {
+fs::path historyOf(fs::path file) {
     return file.replace_extension(".history");
 }
 
@@ -50,7 +50,7 @@ fs::path freshVersion(const fs::path& file, const std::vector<FileVersion>& vers
                                       newest.substr(0, kTimeLength));
     std::string name = time;
     for (int i = 2; name <= newest; ++i) name = fmt::format("{}-{:03}", time, i);
-    return folderOf(file) / (name + file.extension().string());
+    return historyOf(file) / (name + file.extension().string());
 }
 
 // The note is written first, so that every version has one.
@@ -78,8 +78,8 @@ void dropOldest(const fs::path& file) {
 
 std::vector<FileVersion> versionsOf(const fs::path& file) {
     std::vector<FileVersion> versions;
-    if (!fs::is_directory(folderOf(file))) return versions;
-    for (const auto& entry : fs::directory_iterator(folderOf(file)))
+    if (!fs::is_directory(historyOf(file))) return versions;
+    for (const auto& entry : fs::directory_iterator(historyOf(file)))
         if (entry.path().extension() == file.extension())
             versions.push_back(
                 {.name = entry.path().stem().string(), .path = entry.path(), .note = {}});

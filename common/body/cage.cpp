@@ -180,7 +180,6 @@ std::vector<Cell> strip(int firstRing, int lastRing, int column) {
 }
 
 // The shape of the cage. Lengths in body lengths.
-constexpr float kGrow = 1.045F;  // a Catmull-Clark limit surface is smaller than its cage by this
 constexpr float kRidgeHalfWidth = 0.006F;  // of the strips along back and belly that fins grow from
 // A lone dorsal fin takes both strips, with hardly a gap between them; this is the share of the
 // first.
@@ -362,8 +361,8 @@ CageVertex CageShape::place(const CageSite& site) const {
     return isPaired ? onPairedFin(site) : onMedianFin(site);
 }
 
-// On the superellipse of the section, grown by kGrow; the ring around the lips and the columns of
-// the ridges and of the pectoral root have places of their own.
+// On the superellipse of the section, grown by kCageGrowth; the ring around the lips and the
+// columns of the ridges and of the pectoral root have places of their own.
 glm::vec3 CageShape::onBody(int ring, int column) const {
     const auto r = static_cast<std::size_t>(ring);
     const ColumnPlace at = placeOf(column);
@@ -386,12 +385,15 @@ glm::vec3 CageShape::onBody(int ring, int column) const {
         // Half of the way from the columns beside the corner of the mouth to those of the flank.
         const float flank = superellipse(std::sin(at.angle), fullness);
         const float share = glm::mix(mouth_.shareBeside(step), flank, 0.5F);
-        return {s, kGrow * section.heightAt(share), at.side * kGrow * section.widthAt(share)};
+        return {s,
+                kCageGrowth * section.heightAt(share),
+                at.side * kCageGrowth * section.widthAt(share)};
     }
     if (!isPectoralRoot(ring, column))
-        return {s,
-                height * superellipse(std::sin(at.angle), fullness) * kGrow,
-                at.side * section.halfWidth * superellipse(std::cos(at.angle), fullness) * kGrow};
+        return {
+            s,
+            height * superellipse(std::sin(at.angle), fullness) * kCageGrowth,
+            at.side * section.halfWidth * superellipse(std::cos(at.angle), fullness) * kCageGrowth};
     return onPectoralRoot(ring, column);
 }
 

@@ -14,8 +14,7 @@ namespace {
 
 // A front behind this station lies under a snout.
 constexpr float kSnout = 0.015F;
-// The limit surface is smaller than its cage by this; along the lips, which are creased, less so.
-constexpr float kGrow = 1.045F;
+// Instead of kCageGrowth along the lips, which are creased.
 constexpr float kLipGrow = 1.02F;
 // Half of the gap between the lips of a shut mouth, and of that between roof and floor; in the
 // width of a lip.
@@ -104,7 +103,7 @@ glm::vec3 MouthShape::aroundLips(int step, float side) const {
         const float y = isUnderSnout_ && step == 0 ? 0.0F : section.heightAt(step == 0 ? 1 : -1);
         return {s, y, side * std::min(0.006F, 0.45F * section.halfWidth)};
     }
-    return {s, kGrow * section.heightAt(share), side * kGrow * section.widthAt(share)};
+    return {s, kCageGrowth * section.heightAt(share), side * kCageGrowth * section.widthAt(share)};
 }
 
 }  // namespace aquarama::body

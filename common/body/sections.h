@@ -8,6 +8,9 @@
 
 namespace aquarama::body {
 
+// A Catmull-Clark limit surface is smaller than its cage by this.
+inline constexpr float kCageGrowth = 1.045F;
+
 // The cross-section at a station: heights above and below the axis, half width, and the exponents
 // of the superellipses of upper and lower half.
 struct Section {

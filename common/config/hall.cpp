@@ -13,8 +13,6 @@ namespace {
 
 static_assert(v1::HallCamera::LINEAR == static_cast<int>(ScanCamera::Response::Linear));
 
-constexpr double kDegree = kRadiansPerDegree<double>;
-
 // A part of the file, and what it is read with.
 struct HallReader {
     const TextReader& file;

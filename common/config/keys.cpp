@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 static_assert(v1::KeyFile::STANDBY - v1::KeyFile::MASTER == static_cast<int>(KeyRole::Standby));
 
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kKeysVersion = 1;
 constexpr std::string_view kEnding = ".key";
 constexpr std::size_t kKeyLength = 40;
 constexpr std::string_view kZ85 =
@@ -80,7 +80,7 @@ KeyFile parseKeyFile(const std::string& text, const std::string& source) {
 
 std::string textOf(const KeyFile& key) {
     v1::KeyFile out;
-    out.set_version(kVersion);
+    out.set_version(kKeysVersion);
     out.set_rig(key.rig);
     out.set_master_address(key.masterAddress);
     out.set_master_key(key.masterKey);

@@ -24,8 +24,6 @@ namespace aquarama::config {
 
 namespace {
 
-constexpr double kDegree = kRadiansPerDegree<double>;
-
 static_assert(v1::Stereo::ANAGLYPH - v1::Stereo::MONO == static_cast<int>(StereoMode::Anaglyph));
 static_assert(v1::Rig::ULTRA - v1::Rig::LOW == static_cast<int>(QualityTier::Ultra));
 

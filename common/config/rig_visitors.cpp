@@ -87,9 +87,9 @@ std::optional<DmxCues> dmxOf(const TextReader& file, const v1::Rig& rig) {
 
 // Of "http://192.168.20.1:7490": the same machines and ports as those of UDP.
 std::optional<UdpAddress> webAddressIn(const std::string& address) {
-    constexpr std::string_view kScheme = "http://";
-    if (!address.starts_with(kScheme)) return std::nullopt;
-    return udpAddressIn("udp://" + address.substr(kScheme.size()));
+    constexpr std::string_view kWebScheme = "http://";
+    if (!address.starts_with(kWebScheme)) return std::nullopt;
+    return udpAddressIn("udp://" + address.substr(kWebScheme.size()));
 }
 
 // Three corners of a surface; of people, of a floor that is below the viewer's eye.

@@ -16,7 +16,6 @@ namespace {
 
 namespace pb = google::protobuf;
 
-constexpr double kDegree = kRadiansPerDegree<double>;
 constexpr double kMillisecond = 1e-3;
 constexpr float kHead = 0.05F;  // no fin stands before it
 // Of a mouth: the least length from front to corner, and the last station of a corner.

@@ -34,8 +34,6 @@ constexpr double kMostMaskSide = 2048;
 // The largest number of a file: differences of larger coordinates would lose all digits.
 constexpr double kLargest = 1e9;
 
-constexpr float kUnlit = std::numeric_limits<float>::quiet_NaN();
-
 double cross(glm::dvec2 a, glm::dvec2 b) {
     return a.x * b.y - a.y * b.x;
 }
@@ -330,17 +328,6 @@ std::string_view beginning(std::span<const std::byte> bytes, std::size_t most) {
     // Bytes may be looked at as characters.
     return {reinterpret_cast<const char*>(bytes.data()), std::min(bytes.size(), most)};
 }
-
-namespace {
-
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view kBlank = " \t\r";
-    const std::size_t first = text.find_first_not_of(kBlank);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(kBlank) + 1 - first);
-}
-
-}  // namespace
 
 std::optional<double> numberIn(std::string_view text) {
     if (text.starts_with('+')) text.remove_prefix(1);

@@ -48,14 +48,6 @@ const std::map<std::string, std::vector<std::string>, std::less<>> kKnown{
     {"extensionSet", {}},
 };
 
-constexpr std::string_view kBlank = " \t\r\n";
-
-std::string_view trimmed(std::string_view text) {
-    const std::size_t first = text.find_first_not_of(kBlank);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
-
 // The children of an element with this name, in any case.
 std::vector<xml_node> elements(xml_node parent, std::string_view name) {
     std::vector<xml_node> found;
@@ -370,7 +362,7 @@ std::vector<float> Reader::numbersOf(xml_node node, const char* name) const {
     const std::string text = textOf(element(node, name));
     std::vector<float> numbers;
     for (std::string_view rest = text; !rest.empty();) {
-        const std::size_t end = std::min(rest.find_first_of(kBlank), rest.size());
+        const std::size_t end = std::min(rest.find_first_of(" \t\r\n"), rest.size());
         const long double value = number(rest.substr(0, end), name);
         if (numbers.size() == kMostResponses || std::abs(value) > kMostMix)
             refuse(where_, fmt::format("has too many or too large numbers as its {}", name));

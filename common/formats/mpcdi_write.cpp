@@ -23,7 +23,7 @@ namespace {
 
 using pugi::xml_node;
 
-constexpr unsigned kParsing =
+constexpr unsigned kParsingExtension =
     pugi::parse_default | pugi::parse_comments | pugi::parse_pi | pugi::parse_ws_pcdata;
 
 // The shortest decimal that is read as this value; 21 digits are enough for every long double.
@@ -51,7 +51,7 @@ std::string plain(std::span<const float> values) {
     return text;
 }
 
-std::string degreesOf(double radians) {
+std::string degreesText(double radians) {
     return decimalOf(radians * 180.0L / std::numbers::pi_v<long double>,
                      [&](long double read) { return radiansOf(read) == radians; });
 }
@@ -221,7 +221,7 @@ void Writer::addPose(xml_node region, const FileChannel& channel) {
     if (channel.frustum) {
         const xml_node frustum = add(region, "frustum");
         for (const auto& [name, angle] : kAngleNames)
-            addText(frustum, name, degreesOf((*channel.frustum).*angle));
+            addText(frustum, name, degreesText((*channel.frustum).*angle));
     }
     if (!channel.coordinateFrame) return;
     const xml_node frame = add(region, "coordinateFrame");
@@ -364,7 +364,7 @@ void Writer::addFileset(const FileChannel& channel) {
 void Writer::appendExtensions() {
     for (auto& [node, extension] : extensions_) {
         const pugi::xml_parse_result result =
-            node.append_buffer(extension->xml.data(), extension->xml.size(), kParsing);
+            node.append_buffer(extension->xml.data(), extension->xml.size(), kParsingExtension);
         if (!result)
             throw Error(
                 fmt::format("an extension of \"{}\" is no XML ({}); mend it or leave it out",

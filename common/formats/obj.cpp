@@ -17,7 +17,7 @@ namespace aquarama::formats {
 
 namespace {
 
-constexpr std::size_t kTelling = 4096;
+constexpr std::size_t kTellingObj = 4096;
 constexpr std::size_t kMostTriangles = 2 * kMostVertices;
 constexpr std::size_t kMostWord = 32;  // characters of a word in a remark
 constexpr std::array<std::string_view, 13> kKeywords{
@@ -152,7 +152,7 @@ struct ObjReader {
 
 bool isObj(std::span<const std::byte> bytes) {
     const std::string source;
-    VendorLines lines(bytes.first(std::min(bytes.size(), kTelling)), source);
+    VendorLines lines(bytes.first(std::min(bytes.size(), kTellingObj)), source);
     while (lines.next()) {
         if (lines.line().starts_with('#')) continue;
         const auto fields = lines.fields(' ');

@@ -21,7 +21,6 @@ namespace {
 constexpr std::uint32_t kMostSide = 16384;
 constexpr std::size_t kTexelBytes = sizeof(glm::vec3);
 static_assert(kTexelBytes == 12);
-constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 constexpr float kZero = 1e-5F;   // other tools take this for zero
 constexpr float kNudge = 1e-4F;  // and this not
 
@@ -45,7 +44,7 @@ struct Header {
 };
 
 template <typename Number>
-std::optional<Number> numberIn(std::string_view text) {
+std::optional<Number> parsedNumber(std::string_view text) {
     Number number{};
     if (text.starts_with('+')) text.remove_prefix(1);
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -66,7 +65,7 @@ struct Layout {
 
 // A number of texels one way.
 int sideOf(std::string_view text, const std::string& source) {
-    const auto side = numberIn<std::uint32_t>(text);
+    const auto side = parsedNumber<std::uint32_t>(text);
     if (!side || *side < 1 || *side > kMostSide)
         refuse(source,
                fmt::format("has \"{}\" texels one way, not 1 to {}", printable(text), kMostSide));
@@ -75,7 +74,7 @@ int sideOf(std::string_view text, const std::string& source) {
 
 // Negative: little-endian. How much more it says is of no use to a warp.
 double scaleOf(std::string_view text, const std::string& source) {
-    const auto scale = numberIn<double>(text);
+    const auto scale = parsedNumber<double>(text);
     if (!scale || !std::isfinite(*scale) || *scale == 0)
         refuse(source, fmt::format("has a scale of \"{}\"", printable(text)));
     return *scale;
@@ -152,7 +151,7 @@ float sampleOf(float texel, double at, double by) {
 }
 
 glm::vec3 sampleOf(glm::vec3 texel, const Affine& affine, const TexelMeaning& meaning) {
-    if (!isLit(texel, meaning)) return glm::vec3(kNothing);
+    if (!isLit(texel, meaning)) return glm::vec3(kUnlit);
     glm::vec3 sample{};
     for (int i = 0; i < 3; ++i) sample[i] = sampleOf(texel[i], affine.at[i], affine.by[i]);
     return sample;
@@ -180,7 +179,7 @@ glm::vec3 litTexel(glm::vec3 sample, const Affine& affine, Stored stored) {
     for (int i = 0; i < 3; ++i) texel[i] = texelOf(sample[i], affine.at[i], affine.by[i]);
     // Three zeros would be read as unlit; NaN as the third number prevents that.
     if (stored == Stored::Offsets)
-        texel.z = kNothing;
+        texel.z = kUnlit;
     else if (isZero(texel))
         texel.x = kNudge;
     return texel;
@@ -319,7 +318,7 @@ Pfm pfmOf(const Warp& warp, const TexelMeaning& meaning) {
             texel = old;
         else
             texel =
-                std::isnan(texel.x) ? glm::vec3(kNothing) : litTexel(texel, affine, meaning.stored);
+                std::isnan(texel.x) ? glm::vec3(kUnlit) : litTexel(texel, affine, meaning.stored);
     });
     turnOver(pfm);
     return pfm;

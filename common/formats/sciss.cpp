@@ -17,7 +17,6 @@ constexpr std::size_t kVertexBytes = 24;
 constexpr std::uint32_t kPlanar = 0, kCube = 1;
 // The first count of version 2: OpenGL's names for the ways in which indices form triangles.
 constexpr std::uint32_t kTriangles = 4, kStrip = 5;
-constexpr double kWidestEdgeDegrees = 89.9;
 
 struct ScissHeader {
     std::uint8_t version = 0;
@@ -64,7 +63,7 @@ void readCounts(VendorBytes& in, ScissHeader& header) {
 }
 
 // Reads the header, up to the vertices. Throws Error where no mesh can follow.
-ScissHeader readHeader(VendorBytes& in) {
+ScissHeader readScissHeader(VendorBytes& in) {
     ScissHeader header;
     in.go(3);
     header.version = in.u8();
@@ -140,7 +139,7 @@ bool isSciss(std::span<const std::byte> bytes) {
 
 WarpMesh scissMesh(std::span<const std::byte> bytes, const std::string& source) {
     VendorBytes in(bytes, source);
-    const ScissHeader header = readHeader(in);
+    const ScissHeader header = readScissHeader(in);
     return readMesh(in, header);
 }
 
@@ -148,7 +147,7 @@ WallFile readSciss(std::span<const std::byte> bytes,
                    const std::string& source,
                    const ReadOptions& options) {
     VendorBytes in(bytes, source);
-    const ScissHeader header = readHeader(in);
+    const ScissHeader header = readScissHeader(in);
     FileChannel channel;
     channel.name = stemOf(source);
     channel.frustum = header.frustum;

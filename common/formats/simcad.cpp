@@ -15,8 +15,8 @@ namespace aquarama::formats {
 
 namespace {
 
-constexpr std::size_t kTelling = 4096;
-constexpr std::size_t kMostSide = 1025;  // of the grid
+constexpr std::size_t kTellingSimcad = 4096;
+constexpr std::size_t kMostGridSide = 1025;  // of the grid
 
 struct Offsets {
     double range = 0;
@@ -41,7 +41,7 @@ std::vector<double> numbersOf(std::string_view text,
     for (std::size_t at = 0; (at = text.find_first_not_of(kBlank, at)) != std::string_view::npos;) {
         const std::size_t end = std::min(text.find_first_of(kBlank, at), text.size());
         const std::optional<double> value = numberIn(text.substr(at, end - at));
-        if (!value || numbers.size() == kMostSide * kMostSide)
+        if (!value || numbers.size() == kMostGridSide * kMostGridSide)
             fail(source,
                  element,
                  "value " + std::to_string(numbers.size() + 1) +
@@ -120,7 +120,7 @@ WarpMesh meshOf(const SimcadFile& file) {
 }  // namespace
 
 bool isSimcad(std::span<const std::byte> bytes) {
-    return beginning(bytes, kTelling).find("<GeometryFile") != std::string_view::npos;
+    return beginning(bytes, kTellingSimcad).find("<GeometryFile") != std::string_view::npos;
 }
 
 WarpMesh simcadMesh(std::span<const std::byte> bytes, const std::string& source) {

@@ -34,8 +34,6 @@ std::string_view firstLine(std::span<const std::byte> bytes) {
 
 namespace {
 
-constexpr double kWidestEdgeDegrees = 89.9;
-
 // A table of numbers with semicolons, read line by line.
 class CsvTable {
   public:

@@ -104,6 +104,8 @@ inline constexpr std::size_t kMostPictureSide = 16384;
 inline constexpr std::size_t kMostPicturePixels = std::size_t{1} << 25;
 // The exponent of blends whose factor multiplies encoded colours, where the file names none.
 inline constexpr double kCommonGamma = 2.2;
+// The widest angle between the middle of a picture and its edge on a plane.
+inline constexpr double kWidestEdgeDegrees = 89.9;
 
 // The size of a picture, if these numbers can be one.
 [[nodiscard]] std::optional<glm::ivec2> pictureSize(double width, double height);

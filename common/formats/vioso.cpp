@@ -21,7 +21,6 @@ constexpr std::uint32_t kZipped = 0x1, kBorder = 0x8, kBlackLevel = 0x20, kPoint
                         kEncrypted = 0x400;
 // Records that the vendor's shaders do not show.
 constexpr float kUnlitBelow = 0.1F;
-constexpr float kUnlit = std::numeric_limits<float>::quiet_NaN();
 constexpr double kBitmapMost8 = 255, kBitmapMost16 = 65535;
 constexpr double kMostScale = 1e4;  // of a black level
 
@@ -90,7 +89,7 @@ void readLaterFields(VendorBytes& in, std::size_t begin, std::size_t bytes, Vios
     for (double& edge : header.content) edge = static_cast<double>(in.f32());
 }
 
-ViosoHeader readHeader(VendorBytes& in) {
+ViosoHeader readViosoHeader(VendorBytes& in) {
     const std::size_t begin = in.at();
     in.go(begin + 4);
     const std::uint32_t bytes = in.u32();
@@ -161,7 +160,7 @@ bool placeInContent(FileChannel& channel, const std::array<double, 4>& content) 
 // A warp without data has a header alone: its channel has no warp.
 ViosoChannel readWarp(VendorBytes& in, std::size_t number, bool upsideDown) {
     ViosoChannel read;
-    read.header = readHeader(in);
+    read.header = readViosoHeader(in);
     FileChannel& channel = read.channel;
     channel.name =
         read.header.name.empty() ? "channel " + std::to_string(number) : read.header.name;

@@ -30,7 +30,6 @@ using Bytes = std::span<const std::byte>;
 
 // The largest file: forty 4K projectors.
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 32;
-constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 
 // A format: how its content is known, and its reader.
 struct Format {
@@ -178,7 +177,7 @@ double lightFor(std::span<const float> response, double code) {
 
 glm::vec3 warpAt(const Warp& warp, glm::dvec2 place) {
     assert(!warp.samples.empty());
-    if (!std::isfinite(place.x) || !std::isfinite(place.y)) return glm::vec3(kNothing);
+    if (!std::isfinite(place.x) || !std::isfinite(place.y)) return glm::vec3(kUnlit);
     const Between x = between(place.x, warp.size.x, warp.sampling);
     const Between y = between(place.y, warp.size.y, warp.sampling);
     glm::dvec3 sum{};

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -38,6 +39,9 @@ enum class Stored : std::uint8_t {
     WholeBuffer,  // of the whole buffer (Content)
     Offsets,      // from an even grid (View, Projector)
 };
+
+// The x of a sample that shows nothing.
+inline constexpr float kUnlit = std::numeric_limits<float>::quiet_NaN();
 
 // The warp of a channel: what each place of the projector's picture shows (Profile), top row first.
 // x is NaN where a place shows nothing.

@@ -141,7 +141,7 @@ std::int32_t moved(std::int32_t position, std::int32_t step) {
                                      static_cast<std::uint32_t>(step));
 }
 
-Quaternion orientationOf(const MotionStates& s, std::size_t i) {
+Quaternion unpackedOrientation(const MotionStates& s, std::size_t i) {
     return unpack(
         {{s.orientationA[i], s.orientationB[i], s.orientationC[i]}, s.orientationLargest[i]});
 }
@@ -169,7 +169,7 @@ void stepFish(const MotorStep& step, const MotorColumns& columns, std::size_t i)
     s.gaze[i] = gazeAfter(s.gaze[i], step.commands->gaze[i]);
     // Eq. 10 in body axes. seenFrom is the frame from which the path is seen, in the world.
     const Quaternion seenFrom =
-        renormalised(orientationOf(s, i) * conjugate(travel.start.rotation));
+        renormalised(unpackedOrientation(s, i) * conjugate(travel.start.rotation));
     const Quaternion swum = seenFrom * travel.end.rotation;
     const Attitude attitude = attitudeOf(renormalised(swum * travel.bodyFromMean));
     // Eq. 11 with the fish's own length: a slower fish travels a share of the path, a faster one
@@ -253,7 +253,8 @@ Quaternion swayOf(const MotorTables& tables, const MotionStates& states, std::si
 
 glm::quat meanRotation(const MotorTables& tables, const MotionStates& states, std::size_t fish) {
     assert(fish < states.size());
-    const Quaternion mean = normalised(orientationOf(states, fish) * swayOf(tables, states, fish));
+    const Quaternion mean =
+        normalised(unpackedOrientation(states, fish) * swayOf(tables, states, fish));
     return {mean.w, mean.x, mean.y, mean.z};
 }
 

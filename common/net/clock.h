@@ -26,6 +26,10 @@ using Duration = std::chrono::nanoseconds;
 
 // Now, on CLOCK_MONOTONIC of this machine.
 [[nodiscard]] Moment monotonicNow();
+// The same in seconds.
+[[nodiscard]] inline double monotonicSeconds() {
+    return secondsIn(monotonicNow().time_since_epoch());
+}
 
 // Gives the calling thread real-time priority, or takes it away. The kernel then runs it as soon as
 // it wakes, before threads without it. Threads that it starts later do not inherit it. False where

@@ -12,7 +12,7 @@ namespace aquarama::place {
 namespace {
 
 // Width of a cell of the grid.
-constexpr float kCellMetres = 0.5F;
+constexpr float kLatticeMetres = 0.5F;
 // The crown's effect ends this far above it; the lee ends this far behind a boulder.
 constexpr float kCrownMetres = 1.0F;
 constexpr float kLeeMetres = 1.0F;
@@ -88,14 +88,14 @@ Current::Current(const config::SceneCurrent& current,
                  const Region& water)
     : current_{current}, origin_{water.centre - water.halfExtent} {
     if (current.tideMetresPerSecond <= 0 && current.surgeMetresPerSecond <= 0) return;
-    const auto corners = [](float half) { return static_cast<int>(2 * half / kCellMetres) + 2; };
+    const auto corners = [](float half) { return static_cast<int>(2 * half / kLatticeMetres) + 2; };
     countX_ = corners(water.halfExtent.x);
     countY_ = corners(water.halfExtent.y);
     countZ_ = corners(water.halfExtent.z);
     const auto cornerAt = [&](int x, int y, int z) {
         return origin_ +
                glm::vec3{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)} *
-                   kCellMetres;
+                   kLatticeMetres;
     };
     std::vector<Rock> near;
     for (int z = 0; z < countZ_; ++z) {
@@ -131,7 +131,7 @@ bool Current::isOpenFrom(int x, int y, int z) const {
 }
 
 Current::Cell Current::cellOf(glm::vec3 position) const {
-    const glm::vec3 cell = (position - origin_) * (1 / kCellMetres);
+    const glm::vec3 cell = (position - origin_) * (1 / kLatticeMetres);
     const auto within = [](float at, int count) {
         return std::clamp(at, 0.0F, static_cast<float>(count) - 1.001F);
     };

@@ -19,7 +19,8 @@ namespace aquarama::place {
 // How far beyond its radius a rock is felt, and beyond its root a stem, metres: so far it is
 // listed.
 inline constexpr float kRockReachMetres = 0.3F + 0.6F;
-inline constexpr float kStemReachMetres = 0.15F + 0.35F;
+inline constexpr float kStemRadiusMetres = 0.15F;  // of a kelp plant with its fronds
+inline constexpr float kStemReachMetres = kStemRadiusMetres + 0.35F;
 
 // A kelp plant as an obstacle: a vertical stem from the sand to its top.
 struct Stem {

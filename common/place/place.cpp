@@ -262,14 +262,14 @@ void addRing(std::vector<Rock>& rocks, const PlaceKey& place) {
 
 // A pile with a crown at the wanted height above the sand, and small boulders about its foot.
 void addHead(std::vector<Rock>& rocks, const PlaceKey& place, std::uint32_t index) {
-    constexpr float kCrownMetres = 0.05F;  // of the wanted height: near enough
+    constexpr float kNearCrownMetres = 0.05F;  // of the wanted height: near enough
     constexpr std::uint32_t kSatellites = 4;
     const config::Head& head = place.heads[index];
     const std::uint32_t seed = hashOf(hashOf(place.seed, Stream::Heads), index);
     const float crown = floorHeight(place, head.xz) + head.heightMetres;
     Rock top = rockAt(place, head.xz, std::min(head.radiusMetres, head.heightMetres), seed);
     rocks.push_back(top);
-    for (std::uint32_t storey = 0; top.centre.y + top.radiusMetres < crown - kCrownMetres;
+    for (std::uint32_t storey = 0; top.centre.y + top.radiusMetres < crown - kNearCrownMetres;
          ++storey) {
         const std::uint32_t next = hashOf(seed, 100 + storey);
         const glm::vec2 aside = inDisc(next, 0);

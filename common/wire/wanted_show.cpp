@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kWantedShowVersion = 1;
 
 // Tiers follow AUTO, in their order; patterns are numbered as in aquarama.proto.
 static_assert(v1::WantedShow::LOW - v1::WantedShow::AUTO == 1);
@@ -131,7 +131,7 @@ v1::WantedShow parseKeptShow(const std::string& text, const std::string& source)
 
 void keepShow(const fs::path& path, const v1::WantedShow& kept) {
     v1::WantedShow out = kept;
-    out.set_version(kVersion);
+    out.set_version(kWantedShowVersion);
     std::string text;
     google::protobuf::TextFormat::PrintToString(out, &text);
     text = "# What the wall was last told to show (aquarama set).\n" + text;

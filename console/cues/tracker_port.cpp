@@ -10,13 +10,13 @@ namespace aquarama::console {
 namespace {
 
 // Of one call, of a tracker that speaks a hundred times a second; more wait.
-constexpr int kMostPackets = 64;
+constexpr int kMostTrackerPackets = 64;
 
 }  // namespace
 
 // What is malformed, or of somebody else, is dropped.
 std::vector<tuio::Hand> TrackerPort::hear(double now) {
-    for (int i = 0; i < kMostPackets; ++i) {
+    for (int i = 0; i < kMostTrackerPackets; ++i) {
         const auto datagram = port_.receive(osc::kMostPacketBytes + 1);
         if (!datagram) break;
         if (std::ranges::find(from_, datagram->from.host) == from_.end()) {

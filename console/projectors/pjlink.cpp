@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include <arpa/inet.h>
@@ -16,6 +17,8 @@
 #include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <unistd.h>
+
+#include "common/base/characters.h"
 
 namespace aquarama::console {
 
@@ -29,17 +32,11 @@ bool isPrintable(const std::string& text) {
 }
 
 // Of ASCII alone, whatever the locale.
-std::string inCapitals(std::string text) {
-    for (char& c : text)
+std::string inCapitals(std::string_view text) {
+    std::string capitals(text);
+    for (char& c : capitals)
         if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-    return text;
-}
-
-// Without blanks at both ends.
-std::string trimmed(const std::string& text) {
-    const std::size_t first = text.find_first_not_of(' ');
-    if (first == std::string::npos) return {};
-    return text.substr(first, text.find_last_not_of(' ') - first + 1);
+    return capitals;
 }
 
 // What ends a line: some send a line feed, both, or a zero after the carriage return.
@@ -81,7 +78,7 @@ std::optional<PjlinkGreeting> readGreeting(const std::string& line) {
     if (said == "PJLINK ERRA") return PjlinkGreeting{.refuses = true, .salt = {}};
     const std::string start = "PJLINK 1 ";
     if (!said.starts_with(start)) return std::nullopt;
-    const std::string salt = trimmed(trimmed(line).substr(start.size()));
+    const std::string salt{trimmed(trimmed(line).substr(start.size()))};
     if (salt.empty() || salt.size() > kMostSalt || !isPrintable(salt)) return std::nullopt;
     return PjlinkGreeting{.wantsPassword = true, .salt = salt};
 }
@@ -116,7 +113,7 @@ std::optional<std::string> readPjlinkAnswer(const std::string& line, const std::
     if (line.size() > kMostPjlinkBytes) return std::nullopt;
     const std::string said = inCapitals(trimmed(line));
     if (!isAnswerTo(said, command)) return std::nullopt;
-    std::string value = trimmed(said.substr(kStart));
+    std::string value{trimmed(std::string_view(said).substr(kStart))};
     if (value.empty() || !isPrintable(value)) return std::nullopt;
     return value;
 }

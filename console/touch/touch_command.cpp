@@ -39,7 +39,7 @@ constexpr const char* kUsualListen = "udp://127.0.0.1:3333";
 constexpr const char* kLoopback = "127.0.0.1";
 // For each mark.
 constexpr double kPatienceSeconds = 120;
-constexpr auto kBetweenLooks = std::chrono::milliseconds(20);
+constexpr auto kBetweenKeys = std::chrono::milliseconds(20);
 // How far a hand that is held still moves, and a person who stands; shares of the plane.
 constexpr double kSpreadOfHands = 0.02;
 constexpr double kSpreadOfPeople = 0.05;
@@ -55,8 +55,8 @@ class Crew {
     // Throws Error once the crew wants to end.
     void listen() {
         std::string keys;
-        const bool isOpen = hasKeys_ && keyboard_.read(keys, kBetweenLooks);
-        if (!isOpen) std::this_thread::sleep_for(kBetweenLooks);
+        const bool isOpen = hasKeys_ && keyboard_.read(keys, kBetweenKeys);
+        if (!isOpen) std::this_thread::sleep_for(kBetweenKeys);
         hasKeys_ = isOpen;
         constexpr const char* kEnding = "qQ\x03\x04";
         if (isEnded_ || keys.find_first_of(kEnding) != std::string::npos)
@@ -140,7 +140,7 @@ std::unique_ptr<TrackerPort> portOf(const config::TouchedSurface& surface) {
             return std::make_unique<TrackerPort>(surface.listen, surface.from);
         } catch (const Error&) {
             if (secondsNow() > giveUp) throw;
-            std::this_thread::sleep_for(kBetweenLooks);
+            std::this_thread::sleep_for(kBetweenKeys);
         }
 }
 

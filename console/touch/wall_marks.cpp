@@ -20,7 +20,6 @@ namespace aquarama::console {
 
 namespace {
 
-constexpr double kDegree = kRadiansPerDegree<double>;
 constexpr int kStep = static_cast<int>(wall::kGridDegrees);
 constexpr int kBright = static_cast<int>(wall::kGridMajorDegrees);
 

@@ -31,11 +31,11 @@ constexpr std::uint32_t kStructureOneIn = 4;
 // fish sinks from there.
 constexpr float kOutsideMetres = 0.35F;
 constexpr float kBegins = 0.9F;
-constexpr float kSinks = 0.1F;  // metres a second
+constexpr float kSinkSpeed = 0.1F;  // metres a second
 constexpr float kLowestMetres = 0.4F;
 // It begins up-current by the way of the water in this time, at most so far.
-constexpr float kUpCurrentSeconds = 6;
-constexpr float kMostUpCurrent = 0.8F;
+constexpr float kPostUpCurrentSeconds = 6;
+constexpr float kPostMostUpCurrent = 0.8F;
 // Nearer to the borders of the water and to the ground it would have to give way to them.
 constexpr float kOffBorders = 1;
 constexpr float kOffGround = 0.9F;
@@ -147,9 +147,10 @@ glm::vec3 placeAtEdge(const Situation& situation, const Post& post) {
     const glm::vec3 out = place::directionOf(
         {signedUnitOf(hashOf(edge, 1)), 0, signedUnitOf(hashOf(edge, 2))}, {1, 0, 0});
     const glm::vec3 current = around.current.at(situation.senses.position, around.openCurrent);
-    const glm::vec3 up = place::directionOf(current, {}) *
-                         -std::min(kMostUpCurrent, kUpCurrentSeconds * place::lengthOf(current));
-    const float height = std::max(kLowestMetres, kBegins * post.height - kSinks * since);
+    const glm::vec3 up =
+        place::directionOf(current, {}) *
+        -std::min(kPostMostUpCurrent, kPostUpCurrentSeconds * place::lengthOf(current));
+    const float height = std::max(kLowestMetres, kBegins * post.height - kSinkSpeed * since);
     const glm::vec3 place =
         post.middle + out * (post.radius + kOutsideMetres) + up + glm::vec3{0, height, 0};
     return clearOf(around.obstacles, place) - situation.senses.position;

@@ -124,9 +124,6 @@ float dread(const fish::SpeciesParameters& parameters, const fish::Feelings& fee
     return std::clamp(more / std::max(1 - parameters.habits.fear.alone, 0.01F), 0.0F, 1.0F);
 }
 
-// A fast start needs so much room, in body lengths.
-constexpr float kStartLengths = 2.5F;
-
 // A fish is startled by a predator that would reach it within this time, and by a startled
 // schoolmate within so many of its own body lengths: so alarm runs through a school faster than the
 // predator.

@@ -63,7 +63,7 @@ constexpr std::uint32_t kBitesOneIn = 6;
 // It is beside a client within this, of its length and in metres, and gives up after so long, in
 // seconds beyond its longest inspection.
 constexpr float kBesideLengths = 0.6F;
-constexpr float kBesideMetres = 0.15F;
+constexpr float kBesideClientMetres = 0.15F;
 constexpr float kReachesWithin = 5;
 // A bite is felt while it lasts; the chase that follows lasts so long.
 constexpr std::uint32_t kBiteTicks = 16;
@@ -86,12 +86,6 @@ constexpr std::uint64_t kDanceTicks = std::uint64_t{3} * 60;
 constexpr float kDanceHertz = 1.2F;
 constexpr float kDanceSlope = 0.6F;
 constexpr float kDanceMetres = 0.5F;
-
-constexpr float kTicks = static_cast<float>(kTicksPerSecond);
-
-float seconds(std::uint32_t ticks) {
-    return static_cast<float>(ticks) / kTicks;
-}
 
 // A number of a fish for a stream and a time, in ticks.
 std::uint32_t drawn(const Environment& environment,
@@ -179,7 +173,7 @@ Sighting presentClient(const fish::FishView& view,
 bool pauses(const Environment& environment, std::uint32_t fish, const fish::Mind& mind) {
     const std::uint32_t pause =
         drawn(environment, Stream::Cleaning, fish, environment.tick.value - mind.sinceCleaning);
-    return seconds(mind.sinceCleaning) <
+    return secondsOfTicks(mind.sinceCleaning) <
            kShortestPauseSeconds + kPauseSpreadSeconds * unitOf(pause);
 }
 
@@ -233,7 +227,7 @@ void senseCleaner(const Environment& environment,
                   const fish::Mind& mind,
                   Senses& senses) {
     senses.cleaning.urge =
-        seconds(mind.sinceCleaning) / urgePeriodSeconds(environment, parameters, fish);
+        secondsOfTicks(mind.sinceCleaning) / urgePeriodSeconds(environment, parameters, fish);
     senses.cleaning.cleaner = cleanerFor(environment, mind, senses);
     if (!senses.cleaning.cleaner.seen()) return;
     senseClients(environment, fish, senses);
@@ -304,8 +298,8 @@ fish::Course inspect(const Situation& situation) {
 // Up and down over its station.
 fish::Course dance(const Situation& situation, glm::vec3 towards) {
     const Senses& senses = situation.senses;
-    const float part =
-        static_cast<float>(situation.environment.tick.value % kDancePeriodTicks) / kTicks;
+    const float part = static_cast<float>(situation.environment.tick.value % kDancePeriodTicks) /
+                       static_cast<float>(kTicksPerSecond);
     const glm::vec3 level = place::directionOf(
         {senses.heading.x + towards.x, 0, senses.heading.z + towards.z}, {1, 0, 0});
     return {steeply(place::directionOf(
@@ -335,10 +329,10 @@ void endInspection(const Situation& situation, fish::Mind& mind) {
         longest * (kShortestInspection + (1 - kShortestInspection) * unitOf(hashOf(visit, 1)));
     // The inspection begins where it is beside its client.
     const float length = environment.view->fish[client.object].length;
-    const bool isThere = client.distance < kBesideLengths * length + kBesideMetres;
+    const bool isThere = client.distance < kBesideLengths * length + kBesideClientMetres;
     if (!isThere) mind.sinceStage = 0;
-    const bool isDone =
-        seconds(mind.sinceStage) > lasts || seconds(mind.pursued) > longest + kReachesWithin;
+    const bool isDone = secondsOfTicks(mind.sinceStage) > lasts ||
+                        secondsOfTicks(mind.pursued) > longest + kReachesWithin;
     if (!isDone) return;
     if (visit % kBitesOneIn == 0)
         enter(mind, CleanStage::Bite);
@@ -436,7 +430,7 @@ fish::Course poseUntilDone(const Situation& situation, fish::Mind& mind, glm::ve
                                          situation.environment.tick.value - mind.pursued);
     const float lasts = kShortestPoseSeconds + kPoseSpreadSeconds * unitOf(drawnNow);
     if (cleaning.bitten) enter(mind, VisitStage::Chase);
-    const float posed = seconds(mind.sinceStage);
+    const float posed = secondsOfTicks(mind.sinceStage);
     if (posed > kLongestPoseSeconds || (posed > lasts && !cleaning.cleaned)) leaveCleaner(mind);
     return pose(situation, place, drawnNow);
 }

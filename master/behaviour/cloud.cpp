@@ -21,7 +21,7 @@ namespace {
 // what the rank by size adds. In a current of kStrongCurrent and more it is halved; where the fish
 // is threatened it is less by up to kSinks.
 constexpr float kLowest = 0.4F;
-constexpr float kBySize = 0.6F;
+constexpr float kHeightBySize = 0.6F;
 constexpr float kStrongCurrent = 0.3F;  // m/s
 constexpr float kByCurrent = 0.5F;
 constexpr float kSinks = 0.75F;
@@ -44,7 +44,7 @@ constexpr float kFacesFrom = 0.02F;
 
 // A dart at a particle: how long it lasts, how far the fish looks, and the threat from which it
 // picks no more.
-constexpr std::uint64_t kDartTicks = 26;
+constexpr std::uint64_t kStartTicks = 26;
 constexpr float kDartLengths = 2.5F;
 constexpr float kPicksUntil = 0.2F;
 
@@ -72,10 +72,10 @@ glm::vec3 wishOf(const Situation& situation, glm::vec3 current) {
     const float strength = place::lengthOf(current);
     const auto radius = static_cast<float>(habits.home.radiusMetres);
     const float rank = sizeRankOf(situation.parameters, situation.senses.length);
-    const float high = static_cast<float>(habits.cloud->heightMetres) * (kLowest + kBySize * rank) *
-                       (1 - kByCurrent * std::min(1.0F, strength / kStrongCurrent)) *
-                       (1 - kSinks * threat) *
-                       place::valueAt(kCloudHeight, situation.environment.surroundings->timeOfDay);
+    const float high =
+        static_cast<float>(habits.cloud->heightMetres) * (kLowest + kHeightBySize * rank) *
+        (1 - kByCurrent * std::min(1.0F, strength / kStrongCurrent)) * (1 - kSinks * threat) *
+        place::valueAt(kCloudHeight, situation.environment.surroundings->timeOfDay);
     const glm::vec3 up = place::directionOf(current, {}) *
                          -std::min(kMostUpCurrent * radius, kUpCurrentSeconds * strength);
     glm::vec3 aside = placeInCloud(situation) * (radius * (1 - (1 - kShrinks) * threat));
@@ -92,9 +92,9 @@ std::optional<std::uint32_t> presentDart(const Situation& situation) {
     const std::uint64_t now = situation.environment.tick.value + own % gap;
     const std::uint32_t pick = hashOf(own, static_cast<std::uint32_t>(now / gap));
     // It begins at some time within the gap, so that nobody picks in time with another.
-    const std::uint64_t begins = pick % (gap > kDartTicks ? gap - kDartTicks : 1);
+    const std::uint64_t begins = pick % (gap > kStartTicks ? gap - kStartTicks : 1);
     const std::uint64_t since = now % gap;
-    if (since < begins || since >= begins + kDartTicks) return {};
+    if (since < begins || since >= begins + kStartTicks) return {};
     return pick;
 }
 
@@ -118,9 +118,9 @@ glm::vec3 pickOf(const Situation& situation, glm::vec3 current) {
 // Hidden fish stand beside one another: so far about the middle of the site, in its sizes.
 constexpr float kAboutSite = 0.4F;
 // A dive ends this near to its place.
-constexpr float kThereMetres = 0.08F;
+constexpr float kInPlaceMetres = 0.08F;
 // Ticks at the beginning of a dive in which it may be a fast start.
-constexpr std::uint32_t kStartTicks = 16;
+constexpr std::uint32_t kDiveStartTicks = 16;
 
 // A unit vector, and a speed in body lengths a second.
 struct Way {
@@ -202,7 +202,7 @@ void heedRush(const Senses& senses, fish::Mind& mind) {
 
 // A dive ends near its place.
 void arrive(const Senses& senses, fish::Mind& mind, float distance) {
-    if (!isThere(stageOf(mind)) && distance < kThereMetres + kThereLengths * senses.length)
+    if (!isThere(stageOf(mind)) && distance < kInPlaceMetres + kThereLengths * senses.length)
         enter(mind, isFromRush(stageOf(mind)) ? HideStage::HiddenFromRush : HideStage::Hidden);
 }
 
@@ -211,7 +211,8 @@ fish::Course stayHidden(const Situation& situation, const fish::Mind& mind, glm:
     const Senses& senses = situation.senses;
     const float slow = situation.parameters.slow;
     const glm::vec3 out = situation.environment.surroundings->sites[mind.target].normal;
-    const bool strays = place::lengthOf(towards) > kThereMetres + 2 * kThereLengths * senses.length;
+    const bool strays =
+        place::lengthOf(towards) > kInPlaceMetres + 2 * kThereLengths * senses.length;
     const glm::vec3 course = strays ? towards : glm::vec3{out.x, 0.2F, out.z};
     return {place::levelled(place::directionOf(course, senses.heading)),
             strays ? slow : 0.1F * slow,
@@ -228,7 +229,7 @@ fish::Course dive(const Situation& situation, const fish::Mind& mind, glm::vec3 
         std::min(parameters.fast, parameters.slow + lengths),
         lengths > 2 ? 1.0F : 0.0F};
     course.startsFast =
-        mind.sinceStage < kStartTicks && lengths > 3 && situation.feelings.threat >= 1;
+        mind.sinceStage < kDiveStartTicks && lengths > 3 && situation.feelings.threat >= 1;
     return course;
 }
 

@@ -30,7 +30,7 @@ constexpr float kOverBackMetres = 0.15F;
 // From the middle of a host to its back, as a share of its length.
 constexpr float kHalfHeight = 0.2F;
 // Body lengths a second faster for each body length behind.
-constexpr float kCatchUp = 1.2F;
+constexpr float kCompanyCatchUp = 1.2F;
 constexpr float kNearLengths = 1.5F;
 // Weight of the course of the other fish, in body lengths of way to the place beside it.
 constexpr float kSameCourse = 1.2F;
@@ -49,7 +49,8 @@ fish::Course alongside(const Situation& situation, std::uint32_t other, glm::vec
     const float behind =
         distance > kNearLengths ? distance : place::dot(towards, course) / senses.length;
     const float theirs = view.fish[other].speed / senses.length;
-    const float speed = std::clamp(theirs + kCatchUp * behind, 0.0F, situation.parameters.fast);
+    const float speed =
+        std::clamp(theirs + kCompanyCatchUp * behind, 0.0F, situation.parameters.fast);
     return heading(situation, towards + course * (kSameCourse * senses.length), speed);
 }
 

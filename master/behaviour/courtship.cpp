@@ -42,11 +42,11 @@ constexpr float kBehind = 1.0F;
 // Depth below her at which he rises, and at which he nuzzles her belly: there bodies touch.
 constexpr float kBelow = 0.7F;
 constexpr float kBelly = 0.3F;
-constexpr float kTouches = 0.6F;
+constexpr float kMateTouches = 0.6F;
 // Within this distance of his place he keeps station instead of pursuing it.
 constexpr float kStationFrom = 1.5F;
 // Body lengths a second faster for each body length that he is behind.
-constexpr float kCatchUp = 0.8F;
+constexpr float kMateCatchUp = 0.8F;
 // Weight of a body length off his place, against her course.
 constexpr float kClose = 0.7F;
 // Her speed while he nuzzles her, as a share of the slow gait.
@@ -120,7 +120,7 @@ fish::Course keepBelow(const Situation& situation, const Couple& couple, float b
         return pursue(situation, place, parameters.medium, couple.matesHeading * couple.matesSpeed);
     const glm::vec3 astray = place / couple.length;
     const float behind = place::dot(astray, couple.matesHeading);
-    const float pace = couple.matesSpeed / situation.senses.length + kCatchUp * behind;
+    const float pace = couple.matesSpeed / situation.senses.length + kMateCatchUp * behind;
     return heading(
         situation,
         couple.matesHeading + astray * kClose,
@@ -211,7 +211,7 @@ bool isComplete(CourtshipStage stage,
         case CourtshipStage::Nuzzle:
             break;
     }
-    return distance < kTouches * couple.length && ticks > kNuzzleSeconds * kSecond &&
+    return distance < kMateTouches * couple.length && ticks > kNuzzleSeconds * kSecond &&
            fromHerToHim.y < 0;
 }
 

@@ -28,9 +28,8 @@ constexpr float kShyest = 0.4F;
 // Weights against the unit vector of the course.
 constexpr float kFlinch = 3.0F;
 constexpr float kCome = 2.5F;
-// From this fright on a fish makes a fast start, which needs so much room, in body lengths.
+// From this fright on a fish makes a fast start.
 constexpr float kStartles = 0.5F;
-constexpr float kStartLengths = 2.5F;
 // Weaker pulls change nothing.
 constexpr float kNoticed = 0.08F;
 

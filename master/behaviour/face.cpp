@@ -14,13 +14,13 @@ namespace aquarama::behaviour {
 namespace {
 
 // Levels of an open mouth, in 1/255.
-constexpr std::uint8_t kSnap = 255;     // at a particle or at prey
-constexpr std::uint8_t kBite = 170;     // of turf
-constexpr std::uint8_t kRush = 90;      // at prey that is not near yet
-constexpr std::uint8_t kThreat = 150;   // at an intruder
-constexpr std::uint8_t kPosing = 110;   // before a cleaner
-constexpr std::uint8_t kCleaned = 200;  // with one
-constexpr std::uint8_t kPicking = 80;   // of a cleaner at its client
+constexpr std::uint8_t kSnap = 255;      // at a particle or at prey
+constexpr std::uint8_t kTurfBite = 170;  // of turf
+constexpr std::uint8_t kRush = 90;       // at prey that is not near yet
+constexpr std::uint8_t kThreat = 150;    // at an intruder
+constexpr std::uint8_t kPosing = 110;    // before a cleaner
+constexpr std::uint8_t kCleaned = 200;   // with one
+constexpr std::uint8_t kPicking = 80;    // of a cleaner at its client
 // A predator that rushes opens its jaws at prey within so many of its lengths.
 constexpr float kGapesWithin = 0.8F;
 // A cleaner picks within so many of its lengths and so many metres of a client.
@@ -62,7 +62,7 @@ std::uint8_t mouthOf(const Situation& situation,
         case fish::Intention::Eat:
             return huntingMouth(situation, mind);
         case fish::Intention::Graze:
-            return reports(own, fish::DeferredEventKind::Bite) ? kBite : std::uint8_t{0};
+            return reports(own, fish::DeferredEventKind::Bite) ? kTurfBite : std::uint8_t{0};
         case fish::Intention::Charge:
             return kThreat;
         case fish::Intention::Visit:

@@ -64,10 +64,10 @@ constexpr float kAtTheLips = 0.08F;
 // swims on and turns back from farther off (kRunUp).
 enum Stage : std::uint8_t { kApproach, kRunUp };
 constexpr float kTooNear = 2.0F;  // body lengths
-constexpr float kRunUpLengths = 3.0F;
+constexpr float kFoodRunUpLengths = 3.0F;
 constexpr float kAsideCosine = 0.35F;
 // Longest run-up.
-constexpr std::uint32_t kRunUpTicks = 240;
+constexpr std::uint32_t kFoodRunUpTicks = 240;
 
 void enter(fish::Mind& mind, Stage stage) {
     mind.stage = stage;
@@ -217,8 +217,8 @@ fish::Course eat(const Situation& situation, fish::Mind& mind, DeferredEvents& e
     const glm::vec3 fromMouth =
         food.offset - senses.heading * (fish::kNoseBodyLengths * senses.length);
     if (mind.stage == kApproach && cannotTurnTo(senses, fromMouth)) enter(mind, kRunUp);
-    const bool farEnough = food.distance > kRunUpLengths * senses.length;
-    if (mind.stage == kRunUp && (farEnough || mind.sinceStage > kRunUpTicks))
+    const bool farEnough = food.distance > kFoodRunUpLengths * senses.length;
+    if (mind.stage == kRunUp && (farEnough || mind.sinceStage > kFoodRunUpTicks))
         enter(mind, kApproach);
     if (mind.stage == kRunUp)
         return heading(situation, {senses.heading.x, 0, senses.heading.z}, medium);

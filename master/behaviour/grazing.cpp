@@ -18,8 +18,8 @@ namespace aquarama::behaviour {
 namespace {
 
 // A shoal stays 20 to 60 s, but not where less than this is left.
-constexpr std::uint32_t kShortestStayTicks = 20 * 60;
-constexpr std::uint32_t kStaySpreadTicks = 40 * 60;
+constexpr std::uint32_t kShortestGrazeTicks = 20 * 60;
+constexpr std::uint32_t kGrazeSpreadTicks = 40 * 60;
 constexpr float kTooLittle = 0.4F;
 // It looks for so long before it goes on.
 constexpr std::uint32_t kLooksTicks = 4 * 60;
@@ -33,41 +33,41 @@ constexpr std::uint32_t kPuffTicks = 90;
 // On its way: height over the ground, how far ahead it looks at the ground and how often, and its
 // pace: that of the medium gait, less a share drawn for each way.
 constexpr float kOverGroundMetres = 0.3F;
-constexpr float kAheadMetres = 0.4F;
+constexpr float kGroundAheadMetres = 0.4F;
 constexpr std::uint32_t kSamples = 5;
 // Nearer to the ground than so many body lengths it rises first, so steeply.
 constexpr float kRisesBelow = 0.25F;
-constexpr float kRises = 1.5F;
+constexpr float kRiseSlope = 1.5F;
 constexpr float kPaceSpread = 0.2F;
 // In file: the distance to the fish ahead in body lengths, how far it is followed, in metres, and
 // how its distance changes the pace.
 constexpr float kFileLengths = 1.3F;
 constexpr float kFileMetres = 2.5F;
-constexpr float kPerLength = 0.6F;
+constexpr float kPacePerLength = 0.6F;
 constexpr float kMostHurry = 0.8F;
 // It has come to its patch at this distance, and a body length more.
 constexpr float kArrivesMetres = 0.6F;
 
 // The mouth is at a spot within this share of a body length, and this of a metre more.
 constexpr float kReachLengths = 0.2F;
-constexpr float kReachMetres = 0.05F;
+constexpr float kMouthReachMetres = 0.05F;
 // The way to a spot counts more where it is behind, and up to this share more as drawn.
-constexpr float kBehind = 1.5F;
+constexpr float kSpotBehind = 1.5F;
 constexpr float kDrawnOfSpot = 1.5F;
 // A fish that is off its spot by more does not bite; it goes down to it again.
 constexpr float kOffMetres = 0.25F;
 // A spot that is not reached in this time is given up.
 constexpr std::uint32_t kSettleTicks = 7 * 60;
 // It goes down to a spot from above: by so much of the way, at most so many body lengths.
-constexpr float kFromAbove = 0.35F;
-constexpr float kMostAbove = 0.45F;
+constexpr float kSpotFromAbove = 0.35F;
+constexpr float kSpotMostAbove = 0.45F;
 // A spot within so many body lengths and not within 66 degrees ahead it does not turn to: it swims
 // on first, on a slope of this tangent, so far or so long.
 constexpr float kTooNearLengths = 0.8F;
-constexpr float kAheadCosine = 0.4F;
+constexpr float kSpotAheadCosine = 0.4F;
 constexpr float kRunUpSlope = 0.2F;
-constexpr float kRunUpLengths = 1.6F;
-constexpr std::uint32_t kRunUpTicks = 150;
+constexpr float kSpotRunUpLengths = 1.6F;
+constexpr std::uint32_t kSpotRunUpTicks = 150;
 // To a spot that lies deeper below it than on this slope, and so many body lengths more, it does
 // not turn either: it goes on downwards.
 constexpr float kSteepest = 1.1F;
@@ -145,10 +145,10 @@ struct Grazer {
     // Whether little is left on its patch, or it has been there long enough.
     [[nodiscard]] bool isDoneWithPatch() const {
         const std::uint32_t stay =
-            kShortestStayTicks +
+            kShortestGrazeTicks +
             hashOf(hashOf(situation.environment.seed, Stream::Patches, situation.fish),
                    mind.target) %
-                kStaySpreadTicks;
+                kGrazeSpreadTicks;
         return mind.sinceArrival > kLooksTicks &&
                (turf.shareOf(mind.target) < kTooLittle || mind.sinceArrival > stay);
     }
@@ -189,7 +189,7 @@ struct Grazer {
             const float far = place::lengthOf(to);
             const float behind = 1 - place::dot(place::directionOf(to, level), level);
             const float cost =
-                far * (1 + kBehind * behind) * (1 + kDrawnOfSpot * unitOf(hashOf(drawn, spot)));
+                far * (1 + kSpotBehind * behind) * (1 + kDrawnOfSpot * unitOf(hashOf(drawn, spot)));
             if (spot == mind.spot || cost >= least) continue;
             least = cost;
             best = static_cast<std::uint8_t>(spot);
@@ -226,13 +226,13 @@ struct Grazer {
             goOnBiting(off);
         else if (stage() == GrazeStage::Settle)
             goOnSettling(off);
-        else if (off > kRunUpLengths * senses.length || mind.sinceStage > kRunUpTicks)
+        else if (off > kSpotRunUpLengths * senses.length || mind.sinceStage > kSpotRunUpTicks)
             enter(GrazeStage::Settle);
     }
 
     // Bites at the spot once the mouth is there. `off`: metres from the mouth to the spot.
     void goOnSettling(float off) const {
-        if (off < kReachLengths * senses.length + kReachMetres)
+        if (off < kReachLengths * senses.length + kMouthReachMetres)
             enter(GrazeStage::Bite);
         else if (cannotTurnTo(lacking()))
             enter(GrazeStage::RunUp);
@@ -298,7 +298,7 @@ struct Grazer {
     [[nodiscard]] float slopeOver(glm::vec3 level) const {
         float slope = -1;
         for (std::uint32_t i = 1; i <= kSamples; ++i) {
-            const float metres = kAheadMetres * static_cast<float>(i);
+            const float metres = kGroundAheadMetres * static_cast<float>(i);
             slope = std::max(slope, (kOverGroundMetres - overGround(level * metres)) / metres);
         }
         return slope;
@@ -320,16 +320,16 @@ struct Grazer {
                                      view.heading(file) * (kFileLengths * senses.length);
             const float lengths =
                 place::dot(behind, place::directionOf(way, senses.heading)) / senses.length;
-            pace += std::clamp(kPerLength * lengths, -kMostHurry, kMostHurry);
+            pace += std::clamp(kPacePerLength * lengths, -kMostHurry, kMostHurry);
             way = behind + view.heading(file) * (kFileLengths * senses.length);
         }
         const glm::vec3 level = place::directionOf({way.x, 0, way.z}, senses.heading);
         // Near the patch its own height counts.
         const float far = std::clamp(place::lengthOf({way.x, 0, way.z}) - 0.5F, 0.0F, 1.0F);
-        const float slope = slopeOver(level) * far + way.y / kAheadMetres * (1 - far);
+        const float slope = slopeOver(level) * far + way.y / kGroundAheadMetres * (1 - far);
         const glm::vec3 desired = level + glm::vec3{0, std::clamp(slope, -0.5F, 0.5F), 0};
         if (overGround({}) < kRisesBelow * senses.length)
-            return {steeply(place::directionOf(desired + senses.push + glm::vec3{0, kRises, 0},
+            return {steeply(place::directionOf(desired + senses.push + glm::vec3{0, kRiseSlope, 0},
                                                senses.heading)),
                     situation.parameters.slow,
                     0};
@@ -340,7 +340,7 @@ struct Grazer {
     [[nodiscard]] bool cannotTurnTo(glm::vec3 lacks) const {
         const float distance = place::lengthOf(lacks);
         if (distance > kTooNearLengths * senses.length) return false;
-        return place::dot(lacks, senses.heading) < kAheadCosine * distance;
+        return place::dot(lacks, senses.heading) < kSpotAheadCosine * distance;
     }
 
     // One step of the present stage.
@@ -361,7 +361,7 @@ struct Grazer {
         if (-lacks.y > kSteepest * aside + kSlackLengths * length)
             return carefully({senses.heading.x, -kDiveSlope, senses.heading.z},
                              kSettlingPace * slow);
-        const float above = std::min(kFromAbove * aside, kMostAbove * length);
+        const float above = std::min(kSpotFromAbove * aside, kSpotMostAbove * length);
         const glm::vec3 wish = (lacks + glm::vec3{0, above, 0}) / kClosesSeconds;
         const glm::vec3 through =
             place::directionOf(wish, {}) *

@@ -21,7 +21,7 @@ namespace {
 // A new point every 15 s.
 constexpr std::uint64_t kTicksToAPlace = std::uint64_t{15} * 60;
 // Share of the half extent of the water in which points lie.
-constexpr float kInside = 0.75F;
+constexpr float kInsideHome = 0.75F;
 // Spread about the best depth, as a share of the half height.
 constexpr float kDepthSpread = 0.4F;
 constexpr float kAboveRockMetres = 0.45F;
@@ -43,7 +43,7 @@ glm::vec3 shareOf(std::uint32_t hash) {
 
 // Height y about the best depth, `share` -1 to 1, within the water.
 float heightIn(const place::Region& water, float bestDepthMetres, float share) {
-    const float half = kInside * water.halfExtent.y;
+    const float half = kInsideHome * water.halfExtent.y;
     const float height = -bestDepthMetres + share * kDepthSpread * water.halfExtent.y;
     return std::clamp(height, water.centre.y - half, water.centre.y + half);
 }
@@ -108,7 +108,7 @@ constexpr float kTurns = 0.35F;
 constexpr float kHoverPace = 0.15F;
 
 // Weights against the unit vector of the present course.
-constexpr float kKeepCourse = 1.0F;
+constexpr float kHomeKeepCourse = 1.0F;
 constexpr float kGo = 0.7F;
 // Added to kGo when the fish is at its leash.
 constexpr float kGoHome = 2.0F;
@@ -190,7 +190,7 @@ glm::vec3 wanderingGoal(std::uint32_t seed,
     const std::uint32_t own = hashOf(seed, Stream::HomePlaces, static_cast<std::uint32_t>(fish));
     const std::uint64_t place = (tick.value + own % kTicksToAPlace) / kTicksToAPlace;
     const glm::vec3 share = shareOf(hashOf(own, static_cast<std::uint32_t>(place)));
-    const glm::vec3 goal = water.centre + water.halfExtent * share * kInside;
+    const glm::vec3 goal = water.centre + water.halfExtent * share * kInsideHome;
     return {goal.x, heightIn(water, bestDepthMetres, share.y), goal.z};
 }
 
@@ -243,7 +243,7 @@ glm::vec3 beatGoal(const Environment& environment,
                       static_cast<float>(parameters.habits.comfort.bestDepthMetres) + deeper,
                       fish,
                       environment.tick);
-    const glm::vec3 goal = water.centre + ahead * (kInside * water.halfExtent);
+    const glm::vec3 goal = water.centre + ahead * (kInsideHome * water.halfExtent);
     return {goal.x, wandered.y, goal.z};
 }
 
@@ -270,7 +270,7 @@ Bound boundFor(const Environment& environment,
     const float leash = own ? static_cast<float>(home.leashMetres) : 2 * radius;
     // The point in all the water, scaled to the range of the home.
     const glm::vec3 share =
-        (goal - obstacles.water.centre) / (obstacles.water.halfExtent * kInside);
+        (goal - obstacles.water.centre) / (obstacles.water.halfExtent * kInsideHome);
     const float away = place::lengthOf(position - middle);
     const float strayed = std::clamp((away - radius) / std::max(leash - radius, 0.01F), 0.0F, 1.0F);
     return {middle + share * (0.6F * radius) - position, strayed};
@@ -300,7 +300,7 @@ fish::Course wander(const Situation& situation) {
     const Spell spell = spellOf(environment.seed, situation.fish, environment.tick);
     const float calm = std::max(0.0F, 1 - senses.urgency);
     const glm::vec3 desired =
-        senses.heading * kKeepCourse +
+        senses.heading * kHomeKeepCourse +
         place::directionOf(bound.towards, senses.heading) *
             ((kGo + kGoHome * bound.strayed) * calm) +
         turnOf(parameters, spell, senses.heading) * (kTurn * calm * (1 - bound.strayed)) +

@@ -11,7 +11,7 @@ namespace aquarama::behaviour {
 namespace {
 
 // Urgency from which a fish avoids obstacles, and down to which it goes on doing so.
-constexpr float kTurnAway = 1;
+constexpr float kAvoidsFrom = 1;
 constexpr float kTurnedAway = 0.7F;
 // Threat from which a fish dives, and at which it stays hidden.
 constexpr float kDivesFor = 1;
@@ -30,10 +30,6 @@ constexpr float kAtEase = -0.02F;
 // Senses::urge from which a fish visits a cleaner, and at which it stays with it.
 constexpr float kVisitsFor = 1;
 constexpr float kStaysWithCleaner = 0.5F;
-
-float seconds(std::uint32_t ticks) {
-    return static_cast<float>(ticks) / static_cast<float>(kTicksPerSecond);
-}
 
 bool likesSchooling(const fish::SpeciesParameters& parameters, const fish::Mind& mind) {
     return parameters.habits.role == config::Role::Prey &&
@@ -83,7 +79,7 @@ struct Case {
 
     [[nodiscard]] Weighed obstacle() const {
         const bool turning = mind.intention == fish::Intention::AvoidObstacle;
-        const float threshold = turning ? kTurnedAway : kTurnAway;
+        const float threshold = turning ? kTurnedAway : kAvoidsFrom;
         return {fish::Intention::AvoidObstacle,
                 fish::kNobody,
                 senses.urgency >= threshold ? Verdict::Wins : Verdict::TooWeak,
@@ -160,7 +156,7 @@ struct Case {
         Weighed rule{fish::Intention::Charge,
                      senses.territory.intruder.object,
                      Verdict::Wins,
-                     seconds(mind.sinceCharge),
+                     secondsOfTicks(mind.sinceCharge),
                      kRefractorySeconds};
         if (!senses.territory.holds)
             rule.verdict = Verdict::AgainstHabits;
@@ -175,7 +171,7 @@ struct Case {
         Weighed rule{mind.remembered,
                      mind.rememberedTarget,
                      Verdict::Wins,
-                     seconds(mind.sinceRemembered),
+                     secondsOfTicks(mind.sinceRemembered),
                      kMemorySeconds};
         if (mind.remembered == fish::Intention::Wander)
             rule.verdict = Verdict::Nothing;
@@ -257,7 +253,7 @@ struct Case {
     [[nodiscard]] bool isRestingFromAChase() const {
         if (parameters.habits.role != config::Role::Predator) return false;
         const config::Hunt& hunt = parameters.habits.hunt;
-        const float since = seconds(mind.sinceChase);
+        const float since = secondsOfTicks(mind.sinceChase);
         const auto byDay = static_cast<float>(hunt.restByDaySeconds);
         const float rest =
             byDay + (static_cast<float>(hunt.restSeconds) - byDay) * senses.huntersActive;
@@ -292,7 +288,7 @@ struct Case {
     }
     // H > L as published, but with a preference for the drive that is pursued already.
     [[nodiscard]] bool hungerIsStronger() const {
-        const bool justBegun = seconds(mind.pursued) < kLeastPursuitSeconds;
+        const bool justBegun = secondsOfTicks(mind.pursued) < kLeastPursuitSeconds;
         if (aim.intention == fish::Intention::Eat)
             return justBegun || feelings.hunger + kPreference >= feelings.libido;
         if (aim.intention == fish::Intention::Mate)

@@ -28,7 +28,7 @@ constexpr float kDrawn = 0.4F;
 // On its loop a fish passes over one patch in so many.
 constexpr std::uint32_t kSkipsOneIn = 8;
 
-Sighting sightingOf(const surroundings::Turf& turf, std::uint32_t patch, glm::vec3 from) {
+Sighting patchSighting(const surroundings::Turf& turf, std::uint32_t patch, glm::vec3 from) {
     const glm::vec3 offset = turf.patches[patch].place - from;
     return {patch, offset, place::lengthOf(offset)};
 }
@@ -167,14 +167,15 @@ Sighting patchFor(const Environment& environment,
     if (!mayGraze(environment, parameters, fish)) return {};
     const std::uint32_t present = presentPatch(turf, mind);
     const std::uint32_t leader = leaderOf(*environment.view, parameters, fish);
-    if (leader != fish) return sightingOf(turf, environment.view->patch[leader], senses.position);
+    if (leader != fish)
+        return patchSighting(turf, environment.view->patch[leader], senses.position);
     if (present != fish::kNobody && mind.stage != static_cast<std::uint8_t>(GrazeStage::Done))
-        return sightingOf(turf, present, senses.position);
+        return patchSighting(turf, present, senses.position);
     const bool loops = parameters.habits.graze->manner == config::GrazeManner::Loop;
-    return sightingOf(turf,
-                      loops ? nextOfLoop(environment, parameters, fish, present, senses)
-                            : chosenPatch(environment, parameters, fish, present, senses),
-                      senses.position);
+    return patchSighting(turf,
+                         loops ? nextOfLoop(environment, parameters, fish, present, senses)
+                               : chosenPatch(environment, parameters, fish, present, senses),
+                         senses.position);
 }
 
 }  // namespace aquarama::behaviour

@@ -53,6 +53,8 @@ using DeferredEvents = std::vector<fish::DeferredEvent>;
 [[nodiscard]] fish::Course eat(const Situation& situation,
                                fish::Mind& mind,
                                DeferredEvents& events);
+// A fast start needs so much room, in body lengths.
+inline constexpr float kStartLengths = 2.5F;
 // Whether the way is free for so many body lengths, straight ahead and in a direction, at this
 // berth: so far a fish coasts after a fast start.
 [[nodiscard]] bool hasRoom(const Situation& situation,

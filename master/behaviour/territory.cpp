@@ -28,8 +28,7 @@ constexpr std::uint32_t kMostTicks = 4 * 60;
 // Who is nearer than this, in lengths of the owner, was touched.
 constexpr float kTouches = 0.5F;
 // A charge begins with a fast start in this time, where there is so much room.
-constexpr std::uint32_t kStartTicks = 16;
-constexpr float kStartLengths = 2.5F;
+constexpr std::uint32_t kChargeStartTicks = 16;
 // The owner aims at where the intruder will be.
 constexpr float kLeadSeconds = 0.2F;
 
@@ -169,7 +168,7 @@ fish::Course charge(const Situation& situation, const fish::Mind& mind, Deferred
                                                    situation.senses.heading)),
                         situation.parameters.fast,
                         std::max(situation.senses.urgency, 1.0F)};
-    course.startsFast = mind.pursued < kStartTicks &&
+    course.startsFast = mind.pursued < kChargeStartTicks &&
                         hasRoom(situation, course.direction, kStartLengths, surroundings::kAtHome);
     return course;
 }

@@ -29,15 +29,15 @@ constexpr float kTrunkRadius = 0.1F;
 // stand near one of its places, where these are no farther apart than this.
 constexpr float kBetweenPlacesMetres = 2 * place::kChartReachMetres;
 // A rock so far outside the box about a line does not hide it: more than rounding can take off.
-constexpr float kOutsideMetres = 0.01F;
+constexpr float kOutsideRockMetres = 0.01F;
 
 // The box about a line, a little larger: most rocks that a chart lists do not reach into it.
 struct BoxAbout {
     glm::vec3 least, most;
 
     explicit BoxAbout(const SightLine& ray)
-        : least(glm::min(ray.from, ray.from + ray.offset) - kOutsideMetres),
-          most(glm::max(ray.from, ray.from + ray.offset) + kOutsideMetres) {}
+        : least(glm::min(ray.from, ray.from + ray.offset) - kOutsideRockMetres),
+          most(glm::max(ray.from, ray.from + ray.offset) + kOutsideRockMetres) {}
 
     // All at once without branches, because which fails cannot be predicted.
     [[nodiscard]] bool meets(glm::vec3 centre, float radius) const {
@@ -240,8 +240,8 @@ struct Watch {
 
 void heedLargeBodies(Watch& watch, std::uint32_t fish) {
     // Half of a length that no fish reaches.
-    constexpr float kLongestHalf = 1.0F;
-    const float reach = std::max(watch.box.ahead, watch.box.behind) + kLongestHalf;
+    constexpr float kLongestHalfMetres = 1.0F;
+    const float reach = std::max(watch.box.ahead, watch.box.behind) + kLongestHalfMetres;
     const float reachSquared = reach * reach;
     const auto heedAll = [&](const SpatialGrid::Candidates& row) {
         for (const std::uint32_t other : row.index)

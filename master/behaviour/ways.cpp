@@ -23,10 +23,10 @@ constexpr float kHalfMetres = 6;
 constexpr float kLeftMetres = 2.5F;
 constexpr float kLeftWeight = 0.1F;
 
-// Schools keep off a crown: most liked between kNearMetres and kFarMetres from it, not at all from
-// kGoneMetres on.
-constexpr float kNearMetres = 0.8F;
-constexpr float kFarMetres = 3;
+// Schools keep off a crown: most liked between kWayNearMetres and kWayFarMetres from it, not at all
+// from kGoneMetres on.
+constexpr float kWayNearMetres = 0.8F;
+constexpr float kWayFarMetres = 3;
 constexpr float kGoneMetres = 6.5F;
 
 // A school tires of a place at which all its bold fish stay in so many seconds, and forgets that,
@@ -46,7 +46,7 @@ constexpr float kTiredShare = 0.8F;
 constexpr float kOverMetres = 0.9F;
 constexpr float kUpCurrentMetres = 1.6F;
 // A bold fish is there within this distance.
-constexpr float kThereMetres = 1.2F;
+constexpr float kWayThereMetres = 1.2F;
 // Weights against the unit vector of the present course: of the way to the structure, and of the
 // course against the current.
 constexpr float kLead = 1.6F;
@@ -143,8 +143,9 @@ Liking likingOf(const surroundings::Surroundings& surroundings, glm::vec3 place)
         nearest = away;
         share = remembered(structure);
     }
-    const float near = std::clamp(nearest / kNearMetres, 0.0F, 1.0F);
-    const float far = std::clamp((kGoneMetres - nearest) / (kGoneMetres - kFarMetres), 0.0F, 1.0F);
+    const float near = std::clamp(nearest / kWayNearMetres, 0.0F, 1.0F);
+    const float far =
+        std::clamp((kGoneMetres - nearest) / (kGoneMetres - kWayFarMetres), 0.0F, 1.0F);
     return {near * far, near * far * share};
 }
 
@@ -165,7 +166,7 @@ glm::vec3 ownWay(const Situation& situation) {
         // A bold fish leads; it does not leave alone.
         const float followed = std::min(
             1.0F, static_cast<float>(senses.schoolmates.count) / static_cast<float>(kFollowers));
-        if (place::lengthOf(towards) > kThereMetres)
+        if (place::lengthOf(towards) > kWayThereMetres)
             way += place::directionOf(towards, {}) * (kLead * followed);
     }
     if (flows && likingOf(around, senses.position).now > kLikes) way += against * kHold;

@@ -20,10 +20,6 @@ constexpr net::Duration kUntilAway = std::chrono::seconds(1);
 constexpr std::uint64_t kDaySeconds = 20 * 3600;
 constexpr std::size_t kMostRetired = 32;
 
-ask::Answer refused(std::string why) {
-    return {ask::Outcome::Refused, std::move(why)};
-}
-
 net::Blob blobOf(const std::string& bytes) {
     const auto* first = reinterpret_cast<const std::byte*>(bytes.data());
     return std::make_shared<const std::vector<std::byte>>(first, first + bytes.size());
@@ -97,7 +93,7 @@ ask::Answer Drawings::offer(std::uint64_t request,
         return answerOf(*known);
     }
     if (std::string objection = objectionTo(offered); !objection.empty())
-        return refused(std::move(objection));
+        return ask::refused(std::move(objection));
     lastNumber_ = lastNumber_ % motion::kMostSkin + 1;
     number = lastNumber_;
     const net::Blob skin = blobOf(offered.skin());
@@ -146,14 +142,14 @@ ask::Answer Drawings::decide(const std::string& user,
                              std::uint64_t request,
                              const v1::Moderation& moderation) {
     if (const TakenRequest* const known = requests_.find(request)) return answerOf(*known);
-    if (!rules_) return refused("the rig has no drawings; give it a block drawings { }");
+    if (!rules_) return ask::refused("the rig has no drawings; give it a block drawings { }");
     if (moderation.number() == 0) {
         for (Entry& entry : entries_) decideOne(entry, moderation);
     } else {
         Entry* const entry = find(moderation.number());
         if (entry == nullptr)
-            return refused("there is no drawing " + std::to_string(moderation.number()) +
-                           " any more");
+            return ask::refused("there is no drawing " + std::to_string(moderation.number()) +
+                                " any more");
         decideOne(*entry, moderation);
     }
     logInfo("{} decides about drawing {} (0: all): {}",

@@ -19,10 +19,6 @@ constexpr net::Duration kNodesPatience = std::chrono::seconds(3);
 // A fader that moves no more has come to rest after this.
 constexpr net::Duration kFaderRests = std::chrono::seconds(1);
 
-Answer refused(std::string why) {
-    return {Outcome::Refused, std::move(why)};
-}
-
 }  // namespace
 
 Orders::Orders(OrderLimits limits, Roster& roster, const Sender& sender, Drawings& drawings)
@@ -39,7 +35,7 @@ v1::OrderReply Orders::obey(const std::string& user,
     Answer answer;
     std::uint32_t drawing = 0;
     if (order.run() != 0 && order.run() != sender_.session())
-        answer = refused("the show was started again meanwhile: look, and say it once more");
+        answer = ask::refused("the show was started again meanwhile: look, and say it once more");
     else if (order.has_scan())
         answer = hold(user, order.scan(), unpublished, now);
     else if (order.has_sign())
@@ -69,14 +65,14 @@ Answer Orders::carryOutOnce(const std::string& user, const v1::Order& order, net
 Answer Orders::release(const std::string& user, const v1::Order& order) {
     std::string objection = objectionToRelease();
     if (objection.empty()) objection = hunters_.call(order.release().species());
-    if (!objection.empty()) return refused(std::move(objection));
+    if (!objection.empty()) return ask::refused(std::move(objection));
     logInfo("{} releases a {}", user, order.release().species());
     return book_.enter(order.request(), {});
 }
 
 Answer Orders::change(const std::string& user, const v1::Order& order, net::Moment now) {
     if (std::string objection = objectionTo(order.show()); !objection.empty())
-        return refused(std::move(objection));
+        return ask::refused(std::move(objection));
     const std::uint64_t before = control_.version();
     Answer answer = control_.set(order.request(), order.show());
     if (control_.version() == before) return answer;
@@ -126,11 +122,11 @@ Answer Orders::hold(const std::string& user,
         return {};
     }
     if (std::string objection = objectionToScan(); !objection.empty())
-        return refused(std::move(objection));
+        return ask::refused(std::move(objection));
     const auto pattern = wire::readScanPattern(scan.pattern());
     const bool begins = !scan_.pattern();
     if (!scan_.hold(scan.holder(), pattern.value(), std::max(unpublished, Frame{1}), now))
-        return refused("another scan holds the wall; wait for its end, or end it");
+        return ask::refused("another scan holds the wall; wait for its end, or end it");
     if (begins) logInfo("{} holds the wall for a scan", user);
     const std::string missing = notShowingScan();
     return missing.empty() ? Answer{} : Answer{Outcome::Waiting, "not shown yet by " + missing};
@@ -139,9 +135,9 @@ Answer Orders::hold(const std::string& user,
 // What is said again is answered again.
 Answer Orders::takeDrawing(const std::string& user, const v1::Order& order, std::uint32_t& number) {
     if (limits_.isLockstep)
-        return refused("a show in lockstep is the same every time; run it with --live");
+        return ask::refused("a show in lockstep is the same every time; run it with --live");
     if (order.has_moderation()) return drawings_.decide(user, order.request(), order.moderation());
-    if (!control_.wanted().drawings()) return refused("drawings are set off; set drawings on");
+    if (!control_.wanted().drawings()) return ask::refused("drawings are set off; set drawings on");
     return drawings_.offer(
         order.request(), order.drawing(), static_cast<std::uint64_t>(unixNow()), number);
 }
@@ -149,10 +145,10 @@ Answer Orders::takeDrawing(const std::string& user, const v1::Order& order, std:
 // Said again every second or so.
 Answer Orders::hold(const v1::HeldSign& sign, net::Moment now) {
     if (limits_.isLockstep)
-        return refused("a show in lockstep is the same every time; run it with --live");
-    if (!control_.wanted().guests()) return refused("guests are set off; set guests on");
+        return ask::refused("a show in lockstep is the same every time; run it with --live");
+    if (!control_.wanted().guests()) return ask::refused("guests are set off; set guests on");
     if (sign.has_sign() && !wire::readSign(sign.sign()))
-        return refused("the sign has not as many dots as columns and rows say");
+        return ask::refused("the sign has not as many dots as columns and rows say");
     sign_.hold(sign, now);
     return {};
 }
@@ -195,7 +191,7 @@ void Orders::passOn(const v1::Order& order, const std::string& channel) const {
 Answer Orders::restart(const std::string& user, const v1::Order& order) {
     const std::string& channel = order.restart().channel();
     if (std::string objection = objectionToEnding(channel); !objection.empty())
-        return refused(std::move(objection));
+        return ask::refused(std::move(objection));
     logInfo("{} restarts node {}", user, channel);
     passOn(order, channel);
     return book_.enter(order.request(), {});
@@ -214,7 +210,7 @@ std::string Orders::objectionToPower(const std::string& channel) const {
 Answer Orders::power(const std::string& user, const v1::Order& order, net::Moment now) {
     const std::string& channel = order.power().channel();
     if (std::string objection = objectionToPower(channel); !objection.empty())
-        return refused(std::move(objection));
+        return ask::refused(std::move(objection));
     logInfo("{} switches the machine of {}: {}",
             user,
             channel,

@@ -24,7 +24,7 @@ constexpr net::Duration kPublishLead = milliseconds(3);
 // before: the two ticks on either side are simulated when it is published.
 constexpr net::Duration kShownAge = 2 * kTickPeriod + kPublishLead + milliseconds(1);
 constexpr net::Duration kBeacon = milliseconds(50);
-constexpr net::Duration kRepeat = std::chrono::seconds(1);
+constexpr net::Duration kLongestRepeat = std::chrono::seconds(1);
 constexpr net::Duration kLongestWait = milliseconds(10);
 constexpr std::size_t kMostNodes = 64;  // as many as a rig has channels
 
@@ -184,7 +184,7 @@ bool Presentation::publish(Frame frame, net::Moment now) {
         wire::encodeState(sender_.session(), *state, school_.upTo(state->tick));
     channels_.publishState(packet);
     lastPublished_ = lastRepeat_ = now;
-    repeatAfter_ = isLockstep() ? kRepeat : limits_.barrier.deadline;
+    repeatAfter_ = isLockstep() ? kLongestRepeat : limits_.barrier.deadline;
     if (trace_.isOpen())
         trace_.appendOrLog(
             fmt::format("{},{},,\n", frame.value, net::monotonicNow().time_since_epoch().count()));
@@ -201,7 +201,7 @@ bool Presentation::publish(Frame frame, net::Moment now) {
 void Presentation::publishAgain(net::Moment now) {
     for (const auto& [frame, packet] : published_) channels_.publishState(packet);
     lastRepeat_ = now;
-    repeatAfter_ = std::min(2 * repeatAfter_, kRepeat);
+    repeatAfter_ = std::min(2 * repeatAfter_, kLongestRepeat);
 }
 
 // So that a fresh subscriber knows that it hears the channel.

@@ -16,7 +16,7 @@ namespace aquarama::conductor {
 namespace {
 
 // Of one that simulates along, and of one that makes its world, where it may have to capture fish.
-constexpr net::Duration kSilence = std::chrono::seconds(2);
+constexpr net::Duration kStandbySilence = std::chrono::seconds(2);
 constexpr net::Duration kLongestBeginning = std::chrono::minutes(10);
 constexpr net::Duration kHeartbeat = std::chrono::milliseconds(50);
 // Parts on their way, fewer than fit into the queue of a socket.
@@ -111,7 +111,8 @@ void StandbyFeed::drop(const std::string& why) {
 
 void StandbyFeed::turn(Simulation& simulation, const FollowedShow& show, net::Moment now) {
     if (peer_.empty()) return;
-    if (now - lastHeard_ > (isInStep_ ? kSilence : kLongestBeginning)) return drop("it is silent");
+    if (now - lastHeard_ > (isInStep_ ? kStandbySilence : kLongestBeginning))
+        return drop("it is silent");
     if (parts_.empty()) cutNext(simulation, show, now);
     send(now);
 }

@@ -10,12 +10,12 @@ namespace aquarama::journal {
 namespace {
 
 // Hours of a quiet show; a standby that has stood still for so long needs another save.
-constexpr std::size_t kMostWaitingBytes = std::size_t{16} << 20U;
+constexpr std::size_t kMostRelayedBytes = std::size_t{16} << 20U;
 
 }  // namespace
 
 Relay::Relay(wire::Packet beginning)
-    : beginning_{std::move(beginning)}, thread_{"relay", kMostWaitingBytes} {}
+    : beginning_{std::move(beginning)}, thread_{"relay", kMostRelayedBytes} {}
 
 // Another beginning while the one before is encoded is that one.
 void Relay::begin(const world::World& world, const std::vector<wire::Packet>& ahead) {
@@ -47,7 +47,7 @@ void Relay::add(const wire::Packet& entry) {
     const std::lock_guard lock(mutex_);
     if (!isOn_) return;
     waiting_.insert(waiting_.end(), entry.begin(), entry.end());
-    if (waiting_.size() <= kMostWaitingBytes) return;
+    if (waiting_.size() <= kMostRelayedBytes) return;
     isOn_ = false;
     waiting_ = {};
 }

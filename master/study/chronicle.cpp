@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "common/base/units.h"
 #include "common/place/place.h"
 
 namespace aquarama::study {
@@ -17,7 +18,6 @@ namespace {
 
 // Ticks between two notes of the places of all fish.
 constexpr std::uint64_t kTicksBetweenSteps = 30;
-constexpr double kTicksOfMinute = 60.0 * kTicksPerSecond;
 
 // Cells of a cubic metre along each axis, at least one.
 glm::ivec3 cubicMetres(const place::Region& water) {
@@ -138,7 +138,7 @@ Hour Chronicle::finished(const Hour& hour) const {
     Hour whole = hour;
     const Tally& tally = diary_.tally();
     const double fishTicks = tally.fishTicks - before_.fishTicks;
-    const double perFishMinute = kTicksOfMinute / fishTicks;
+    const double perFishMinute = kTicksPerMinute / fishTicks;
     for (std::size_t i = 0; i < fish::kIntentions; ++i)
         whole.intentionShare.at(i) =
             (tally.intentionTicks.at(i) - before_.intentionTicks.at(i)) / fishTicks;

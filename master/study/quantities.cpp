@@ -29,8 +29,6 @@ glm::vec3 placeOf(const place::Region& water, std::uint32_t hash) {
     return water.centre + water.halfExtent * share * 0.6F;
 }
 
-constexpr double kTicksOfMinute = 60.0 * kTicksPerSecond;
-
 // Indexed by Quantity.
 constexpr std::array<const char*, kQuantities> kKeys{
     "touches_per_fish_minute",
@@ -127,7 +125,7 @@ const char* keyOf(Quantity quantity) {
 
 Figures figuresOf(const Diary& diary, double pinchSeconds) {
     const Tally& tally = diary.tally();
-    const double fishMinutes = tally.fishTicks / kTicksOfMinute;
+    const double fishMinutes = tally.fishTicks / kTicksPerMinute;
     const std::vector<BodyOverlap> overlaps = diary.overlaps().all();
     const auto deep = std::ranges::count_if(
         overlaps, [](const BodyOverlap& overlap) { return overlap.deepest > kDeepShare; });

@@ -13,13 +13,13 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
 
+#include "common/base/units.h"
 #include "master/behaviour/vision.h"
 
 namespace aquarama::study {
 
 namespace {
 
-constexpr double kDegree = kRadiansPerDegree<double>;
 // Distance of the directions that are tried for what is inside the border of a screen.
 constexpr double kStep = 1 * kDegree;
 

@@ -21,10 +21,9 @@ constexpr float kSurfaceClearanceMetres = 0.5F;
 // The widest berth: the chart lists by it.
 constexpr Berth kWidest{};
 static_assert(kWidest.rockClearance + kWidest.rockMargin <= place::kRockReachMetres);
-// Radius of a kelp plant with its fronds.
-constexpr float kStemRadiusMetres = 0.15F;
+// Beside a kelp plant.
 constexpr float kStemMarginMetres = 0.35F;
-static_assert(kStemRadiusMetres + kStemMarginMetres <= place::kStemReachMetres);
+static_assert(place::kStemRadiusMetres + kStemMarginMetres <= place::kStemReachMetres);
 // No single push is stronger.
 constexpr float kStrongest = 6.0F;
 
@@ -82,7 +81,7 @@ glm::vec3 stemPush(const place::Stem& stem,
     const glm::vec3 level{heading.x, 0, heading.z};
     const float along = std::clamp(place::dot(to, level), 0.0F, reachMetres);
     const glm::vec3 away = level * along - to;
-    return pushAway(away, kStemRadiusMetres, kStemMarginMetres, along / reachMetres);
+    return pushAway(away, place::kStemRadiusMetres, kStemMarginMetres, along / reachMetres);
 }
 
 // Push of obstacle `index` as the chart numbers them: rocks, then stems.

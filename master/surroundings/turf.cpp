@@ -13,7 +13,7 @@ namespace aquarama::surroundings {
 namespace {
 
 // Spots lie within this distance of the middle of their patch, and so far apart.
-constexpr float kSpreadMetres = 0.5F;
+constexpr float kPatchSpreadMetres = 0.5F;
 constexpr float kApartMetres = 0.14F;
 // A spot is at least this far from the sand, and from other boulders in their radii.
 constexpr float kOverSandMetres = 0.15F;
@@ -43,8 +43,8 @@ glm::vec3 spotOf(const place::Obstacles& obstacles,
         const glm::vec3 aside{signedUnitOf(hashOf(own, 1)),
                               signedUnitOf(hashOf(own, 2)),
                               signedUnitOf(hashOf(own, 3))};
-        const glm::vec3 direction =
-            place::directionOf(patch.place + aside * kSpreadMetres - rock.centre, patch.normal);
+        const glm::vec3 direction = place::directionOf(
+            patch.place + aside * kPatchSpreadMetres - rock.centre, patch.normal);
         const glm::vec3 spot = rock.centre + direction * (place::kDrawnRadii * rock.radiusMetres);
         const bool isApart =
             std::none_of(patch.spots.begin(), patch.spots.begin() + spots, [&](glm::vec3 other) {

@@ -50,8 +50,6 @@ void turn(Vessel& vessel) {
     settle(bank, kRollFrequency, is.roll, rate.roll);
 }
 
-// Radius of a kelp plant with its fronds, as for fish.
-constexpr float kStemRadiusMetres = 0.15F;
 // Obstacles farther from the hull than this are not considered.
 constexpr float kFeltMetres = 2;
 // Greatest speed at which the hull is led away within the stand-off.
@@ -84,7 +82,7 @@ Face ballFace(glm::vec3 centre, float radius, glm::vec3 at) {
 // A post with a round top: the nearest point of its axis as a ball.
 Face stemFace(const place::Stem& stem, glm::vec3 at) {
     const glm::vec3 nearest{stem.foot.x, std::min(at.y, stem.topMetres), stem.foot.y};
-    return ballFace(nearest, kStemRadiusMetres, at);
+    return ballFace(nearest, place::kStemRadiusMetres, at);
 }
 
 // Visits the faces that the hull may feel, always in the same order: borders, sand, rocks, stems.
@@ -107,7 +105,7 @@ void visitFaces(const Waters& waters, glm::vec3 at, const Visit& visit) {
         if (isNear(rock.centre.x, rock.centre.z, rock.radiusMetres))
             visit(ballFace(rock.centre, rock.radiusMetres, at));
     for (const place::Stem& stem : waters.stems)
-        if (isNear(stem.foot.x, stem.foot.y, kStemRadiusMetres)) visit(stemFace(stem, at));
+        if (isNear(stem.foot.x, stem.foot.y, place::kStemRadiusMetres)) visit(stemFace(stem, at));
 }
 
 // The faces within kFeltMetres, gathered once per tick into a fixed array. At most 128 are kept;

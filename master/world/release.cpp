@@ -17,7 +17,7 @@ constexpr float kThereMetres = 1.5F;
 constexpr std::uint64_t kComes = 40 * 60;
 
 // Room beside a rock, and what the way round one counts for.
-constexpr float kRockRoomMetres = 0.6F;
+constexpr float kBesideRockMetres = 0.6F;
 constexpr float kRoundMetres = 8;
 constexpr float kLeastSquaredMetres = 0.01F;
 
@@ -45,7 +45,7 @@ bool isBlocked(const place::Obstacles& obstacles, glm::vec3 from, glm::vec3 to) 
     return std::ranges::any_of(obstacles.rocks, [&](const place::Rock& rock) {
         const float share = std::clamp(place::dot(rock.centre - from, way) / squared, 0.0F, 1.0F);
         return place::lengthOf(from + way * share - rock.centre) <
-               rock.radiusMetres + kRockRoomMetres;
+               rock.radiusMetres + kBesideRockMetres;
     });
 }
 

@@ -20,7 +20,7 @@ constexpr std::uint64_t kShows = 8 * 60;
 constexpr std::uint64_t kLeaves = 60 * 60;
 // Behind the viewer by this much, or so far away, a fish that leaves is out of sight.
 constexpr float kBehindMetres = 0.5F;
-constexpr float kHazeMetres = 14;
+constexpr float kOutOfSightMetres = 14;
 
 void begin(fish::Wearer& wearer, fish::Visit visit, Tick tick) {
     wearer.visit = visit;
@@ -34,7 +34,8 @@ glm::vec3 placeOf(const FishColumns& columns, const fish::Wearer& wearer) {
 // Whether a fish is where its viewer does not see it.
 bool isUnseen(const fish::Wearers& wearers, glm::vec3 position) {
     const glm::vec3 from = position - wearers.eye;
-    return place::dot(from, wearers.ahead) < -kBehindMetres || place::lengthOf(from) > kHazeMetres;
+    return place::dot(from, wearers.ahead) < -kBehindMetres ||
+           place::lengthOf(from) > kOutOfSightMetres;
 }
 
 // Out of sight, or too long on its way there.

@@ -10,6 +10,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "render_node/reef/angles.h"
 #include "render_node/reef/fade.h"
 #include "render_node/reef/strands.h"
 
@@ -43,8 +44,6 @@ Levels grow(Form form, int shape) {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-// Radians. Steps by this angle spread parts evenly around a centre, for any number of them.
-constexpr float kGoldenAngle = 2.39996F;
 
 // The surface of a leaf. lightness: relative to the tint; sway: share of the height, see Surface.
 Surface leaf(float lightness, float sway) {

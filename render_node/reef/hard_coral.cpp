@@ -2,23 +2,19 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <span>
 #include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "render_node/reef/angles.h"
 #include "render_node/reef/growth.h"
 #include "render_node/reef/strands.h"
 
 namespace aquarama::scene {
 
 namespace {
-
-constexpr float kTwoPi = 2.0F * std::numbers::pi_v<float>;
-// Radians. Steps by this angle spread parts evenly around a centre, for any number of them.
-constexpr float kGoldenAngle = 2.39996F;
 
 // Living tissue, relative to the tint: dark where it is old, pale where it grows.
 Surface tissue(float lightness, float relief = 0.0F) {

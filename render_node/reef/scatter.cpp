@@ -5,7 +5,6 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 #include <span>
 
 #include <glm/common.hpp>
@@ -13,14 +12,13 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "common/place/sites.h"
+#include "render_node/reef/angles.h"
 #include "render_node/reef/mesh.h"
 #include "render_node/reef/strands.h"
 
 namespace aquarama::scene {
 
 namespace {
-
-constexpr float kTwoPi = 2.0F * std::numbers::pi_v<float>;
 
 // Where a form grows, how large it becomes, and how it stands.
 struct Way {

@@ -5,7 +5,6 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -14,6 +13,7 @@
 #include "common/base/derived_cache.h"
 #include "common/base/hash.h"
 #include "render_node/gl/handle.h"
+#include "render_node/reef/angles.h"
 #include "render_node/shaders/shader_interface.h"
 
 namespace aquarama::scene {
@@ -92,8 +92,6 @@ gl::Framebuffer makeTarget(const gl::Texture& colour) {
 }
 
 namespace {
-
-constexpr float kTwoPi = 2.0F * std::numbers::pi_v<float>;
 
 // Value noise, -1 to 1, with so many lattice cells on the tile, so that it repeats. uv: in tiles.
 float tiled(std::uint32_t seed, glm::vec2 uv, int cells) {

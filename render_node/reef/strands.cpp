@@ -5,13 +5,14 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 #include <utility>
 #include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+
+#include "render_node/reef/angles.h"
 
 namespace aquarama::scene {
 
@@ -72,8 +73,6 @@ glm::mat3 frameAbout(glm::vec3 up, float turnRadians) {
 }
 
 namespace {
-
-constexpr float kTwoPi = 2.0F * std::numbers::pi_v<float>;
 
 // Unit tangent of the axis at a joint, by central difference.
 glm::vec3 alongAt(std::span<const Joint> joints, std::size_t i) {

@@ -8,7 +8,7 @@ namespace {
 
 // A report may be lost with its connection, for all nodes at once where a key is revoked: the wall
 // then stands still for as long, so it is less than a node may be silent.
-constexpr net::Duration kRepeat = std::chrono::milliseconds(100);
+constexpr net::Duration kReportRepeat = std::chrono::milliseconds(100);
 
 }  // namespace
 
@@ -26,7 +26,7 @@ void FrameReports::release(Frame frame) {
 std::optional<v1::Envelope> FrameReports::due(const Pings& clock,
                                               net::Moment now,
                                               std::uint64_t mismatches) {
-    if (!finished_ || (said_ && now - *said_ <= kRepeat)) return std::nullopt;
+    if (!finished_ || (said_ && now - *said_ <= kReportRepeat)) return std::nullopt;
     said_ = now;
     v1::Envelope message;
     v1::Ready& ready = *message.mutable_ready();

@@ -11,8 +11,8 @@
 namespace aquarama::session {
 namespace {
 
-constexpr net::Duration kRepeat = std::chrono::seconds(1);  // of a request without an answer
-constexpr std::size_t kMostUndecoded = 2;                   // pictures that wait
+constexpr net::Duration kSkinRepeat = std::chrono::seconds(1);  // of a request without an answer
+constexpr std::size_t kMostUndecoded = 2;                       // pictures that wait
 
 // The skin in a whole blob. Throws Error.
 std::shared_ptr<const body::SideSkin> skinIn(net::BlobAssembly& whole) {
@@ -43,7 +43,7 @@ void SkinFetch::turn(net::Moment now) {
     if (const auto decoded = takeDecoded()) keep(*decoded);
     decodeNext();
     if (assembly_) {
-        if (now - lastRequest_ > kRepeat) requestChunk();
+        if (now - lastRequest_ > kSkinRepeat) requestChunk();
         return;
     }
     if (undecoded_.size() >= kMostUndecoded) return;

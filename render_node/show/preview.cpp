@@ -19,7 +19,7 @@ namespace {
 
 constexpr net::Duration kBetweenPictures = std::chrono::milliseconds(200);
 // An older request is dropped: its console has stopped looking.
-constexpr net::Duration kPatience = std::chrono::seconds(1);
+constexpr net::Duration kPreviewPatience = std::chrono::seconds(1);
 constexpr net::Duration kBetweenHellos = std::chrono::seconds(1);
 constexpr std::size_t kMostQuestions = 4;
 
@@ -129,10 +129,10 @@ WatcherLink::~WatcherLink() {
 std::optional<int> WatcherLink::wantedWidth() {
     const std::lock_guard lock(mutex_);
     const net::Moment now = net::monotonicNow();
-    const bool isMaking = beingMade_ != 0 && now - lastPicture_ < kPatience;
+    const bool isMaking = beingMade_ != 0 && now - lastPicture_ < kPreviewPatience;
     if (!request_ || isMaking || now - lastPicture_ < kBetweenPictures) return std::nullopt;
     const auto [number, width] = *std::exchange(request_, {});
-    if (now - requestedAt_ > kPatience) return std::nullopt;
+    if (now - requestedAt_ > kPreviewPatience) return std::nullopt;
     beingMade_ = number;
     lastPicture_ = now;
     return width;

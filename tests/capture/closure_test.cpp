@@ -8,13 +8,13 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "capture/measure.h"
+#include "common/base/units.h"
 #include "common/motion/motor_tables.h"
 #include "tests/capture/all_species.h"
 
 namespace aquarama::capture {
 namespace {
 
-constexpr double kDegree = 3.14159265358979 / 180;
 constexpr int kRepetitions = 100;
 
 using Closed = EachSpecies;

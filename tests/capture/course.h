@@ -10,10 +10,9 @@
 
 #include "capture/dynamics.h"
 #include "capture/swimmer.h"
+#include "common/base/units.h"
 
 namespace aquarama::capture {
-
-inline constexpr double kDegree = std::numbers::pi / 180;
 
 inline void advanceSeconds(Swimmer& swimmer, double seconds) {
     swimmer.advance(static_cast<int>(std::lround(seconds / swimmer.stepSeconds())));

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "capture/measure.h"
+#include "common/base/units.h"
 #include "tests/capture/all_species.h"
 
 namespace aquarama::report {
@@ -21,7 +22,6 @@ using capture::allSpecies;
 using motion::Action;
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
-constexpr double kDegree = kTwoPi / 360;
 
 // What the species are in life: docs/motion.md gives the sources.
 const std::map<std::string, SwimmingForm>& expectedForms() {

@@ -20,7 +20,6 @@
 namespace aquarama::capture {
 namespace {
 
-constexpr double kDegree = 3.14159265358979 / 180;
 constexpr std::size_t kTail = kWaveStations - 1;
 const std::set<std::string> kLabriform{"blue_tang",
                                        "butterflyfish",

@@ -8,12 +8,11 @@
 #include "capture/speed_response.h"
 #include "capture/start_figures.h"
 #include "capture/turn.h"
+#include "common/base/units.h"
 #include "tests/support/all_species.h"
 
 namespace aquarama::capture {
 namespace {
-
-constexpr double kDegree = 3.14159265358979 / 180;
 
 class Starts : public testing::TestWithParam<std::string> {
   protected:

@@ -10,12 +10,11 @@
 
 #include "capture/dynamics.h"
 #include "capture/measure.h"
+#include "common/base/units.h"
 #include "tests/capture/all_species.h"
 
 namespace aquarama::capture {
 namespace {
-
-constexpr double kDegree = 3.14159265358979 / 180;
 
 using Turn = EachSpecies;
 INSTANTIATE_TEST_SUITE_P(Of,

@@ -16,8 +16,6 @@ namespace aquarama::test {
 
 namespace {
 
-constexpr double kDegree = kRadiansPerDegree<double>;
-
 glm::dvec2 direction(double degrees) {
     return {std::cos(degrees * kDegree), std::sin(degrees * kDegree)};
 }

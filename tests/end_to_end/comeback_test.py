@@ -7,7 +7,8 @@ import time
 import unittest
 from pathlib import Path
 
-from show import BIN, FAKE_TIME, ROOT, ShowCase, aquarama, at_time, lacks, rig_on_free_ports, start, wait_until
+from show import (BIN, EMPTY_SEA, FAKE_TIME, ROOT, ShowCase, aquarama, at_time, lacks, rig_on_free_ports, start,
+                  wait_until)
 
 DAYS = "MONDAY, TUESDAY, WEDNESDAY, THURSDAY, FRIDAY, SATURDAY, SUNDAY"
 HOURS = f'zone: "UTC"\nopen {{ days: [{DAYS}] from: "10:00" to: "18:00" }}\n'
@@ -17,7 +18,7 @@ HOURS = f'zone: "UTC"\nopen {{ days: [{DAYS}] from: "10:00" to: "18:00" }}\n'
 class Comeback(ShowCase):
     def setUp(self):
         super().setUp()
-        self.rig = rig_on_free_ports(self.folder.name, replace=[(r"scenes/reef", "scenes/empty_sea")])
+        self.rig = rig_on_free_ports(self.folder.name, replace=EMPTY_SEA)
         self.state = Path(os.environ["XDG_STATE_HOME"]) / "aquarama"
         self.console = self.state / "console/desk"
         self.console.mkdir(parents=True)

@@ -7,8 +7,8 @@ import time
 import unittest
 from pathlib import Path
 
-from show import (BIN, CHANNELS, ROOT, aquarama, children_of, control_address, end, rig_on_free_ports, start,
-                  temporary_folder, trace, wait_until)
+from show import (BIN, CHANNELS, EMPTY_SEA, ROOT, aquarama, children_of, control_address, end, rig_on_free_ports,
+                  start, temporary_folder, trace, wait_until)
 
 
 # A node is passed over within a quarter of a second, and back with a picture in two; a busy machine has three times as
@@ -24,7 +24,7 @@ class LiveShow:
     def __init__(self, folder):
         self.folder = folder
         self.log = f"{folder}/log"
-        self.rig = rig_on_free_ports(folder)
+        self.rig = rig_on_free_ports(folder, replace=EMPTY_SEA)
         desk = self.rig.read_text()
         theatre = desk.replace("present_deadline_s: 2 ", "").replace("membership_s: 5 ", "membership_s: 0.25 ")
         assert len(theatre) < len(desk)

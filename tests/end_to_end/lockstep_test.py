@@ -8,7 +8,7 @@ import time
 import unittest
 from pathlib import Path
 
-from show import CHANNELS, aquarama, control_address, end, rig_on_free_ports, start, temporary_folder, trace
+from show import CHANNELS, EMPTY_SEA, aquarama, control_address, end, rig_on_free_ports, start, temporary_folder, trace
 
 
 def assert_presented_in_step(case, folder, frames):
@@ -45,7 +45,7 @@ class Lockstep(unittest.TestCase):
         chance = random.Random(1998)
         for order in itertools.permutations(range(4)):
             with temporary_folder() as folder:
-                rig = rig_on_free_ports(folder)
+                rig = rig_on_free_ports(folder, replace=EMPTY_SEA)
                 log = f"{folder}/log"
                 starts = [("master", rig, "--lockstep", "--frames", 3, "--pattern", "grid", "--trace", folder)]
                 starts += [("node", name, "--master", control_address(rig), "--headless", "--trace", folder)

@@ -9,7 +9,7 @@ import time
 import unittest
 from pathlib import Path
 
-from show import (BIN, CHANNELS, ROOT, aquarama, control_address, end, free_ports, rig_on_free_ports, start,
+from show import (BIN, CHANNELS, EMPTY_SEA, ROOT, aquarama, control_address, end, free_ports, rig_on_free_ports, start,
                   temporary_folder, trace, wait_until)
 from windows_test import Display
 
@@ -135,7 +135,7 @@ class ThreeMonitors(unittest.TestCase):
 
     def rig(self, connectors):
         """The desk on whole monitors, at these connectors from left to right, with a scene that is soon prepared."""
-        rig = rig_on_free_ports(self.folder.name, replace=[(r"scenes/reef", "scenes/empty_sea")])
+        rig = rig_on_free_ports(self.folder.name, replace=EMPTY_SEA)
         names = iter(connectors)
         rig.write_text(re.sub(r"mode: WINDOW[^}]*", lambda _: f"mode: FULLSCREEN {next(names)} ", rig.read_text()))
         return rig

@@ -41,12 +41,18 @@ class Installation {
     Installation(const Installation&) = delete;
     Installation& operator=(const Installation&) = delete;
 
-    // The light of each channel after a run of the show.
+    // The light of each channel after two frames of a pattern, before an empty sea, which is soon
+    // prepared.
+    std::vector<Light> showPattern(const std::string& arguments) const {
+        return show("--scene " AQUARAMA_SOURCE_DIR "/config/scenes/empty_sea.txtpb --pattern " +
+                    arguments);
+    }
+    // The light of each channel after two frames of the show.
     std::vector<Light> show(const std::string& arguments) const {
         const std::string command = std::string(getenv("AQUARAMA_BIN")) + "/aquarama run " +
-                                    (folder_ / "rig.txtpb").string() + " --headless --snapshot " +
-                                    folder_.string() + " " + arguments + " > " +
-                                    (folder_ / "log").string() + " 2>&1";
+                                    (folder_ / "rig.txtpb").string() +
+                                    " --headless --frames 2 --snapshot " + folder_.string() + " " +
+                                    arguments + " > " + (folder_ / "log").string() + " 2>&1";
         EXPECT_EQ(std::system(command.c_str()), 0) << log();
         return compose::readChannels(rig_, folder_.string());
     }
@@ -65,8 +71,8 @@ class OneWall : public testing::TestWithParam<const char*> {};
 
 TEST_P(OneWall, everyLineOfTheGridIsWhereADirectRenderHasIt) {
     const Installation installation(GetParam());
-    const Light composed = compose::composePanorama(
-        installation.rig(), installation.show("--frames 2 --pattern grid --deep"));
+    const Light composed =
+        compose::composePanorama(installation.rig(), installation.showPattern("grid --deep"));
     const auto offsets =
         test::lineOffsets(installation.rig(),
                           composed,
@@ -81,9 +87,9 @@ TEST_P(OneWall, everyLineOfTheGridIsWhereADirectRenderHasIt) {
 
 TEST_P(OneWall, flatGreyStaysFlatAcrossTheOverlaps) {
     const Installation installation(GetParam());
-    const auto deep = installation.show("--frames 2 --pattern grey --deep");
+    const auto deep = installation.showPattern("grey --deep");
     EXPECT_LT(test::unevenness(compose::composePanorama(installation.rig(), deep), 1), 0.01);
-    const auto dithered = installation.show("--frames 2 --pattern grey");
+    const auto dithered = installation.showPattern("grey");
     EXPECT_LT(test::unevenness(compose::composePanorama(installation.rig(), dithered), 16), 0.01);
 }
 
@@ -116,8 +122,7 @@ Light measuredPart(const config::Rig& rig) {
 TEST_P(AnyScreen, everyLineOfTheGridIsWhereADirectRenderHasItAndGreyIsFlat) {
     const Installation installation(GetParam());
     const config::Rig& rig = installation.rig();
-    const Light grid =
-        compose::composePanorama(rig, installation.show("--frames 2 --pattern grid --deep"));
+    const Light grid = compose::composePanorama(rig, installation.showPattern("grid --deep"));
     const Light screen = measuredPart(rig);
     const auto offsets =
         test::windowOffsets(grid, test::directPanorama(rig, wall::TestPattern::Grid), screen);
@@ -126,8 +131,7 @@ TEST_P(AnyScreen, everyLineOfTheGridIsWhereADirectRenderHasItAndGreyIsFlat) {
     for (const double offset : offsets) worst = std::max(worst, std::abs(offset));
     RecordProperty("worst_px", std::to_string(worst));
     EXPECT_LT(worst, 0.5);
-    const Light grey =
-        compose::composePanorama(rig, installation.show("--frames 2 --pattern grey --deep"));
+    const Light grey = compose::composePanorama(rig, installation.showPattern("grey --deep"));
     EXPECT_LT(test::unevennessOn(grey, screen), 0.01);
 }
 
@@ -177,7 +181,7 @@ glm::dvec2 displacement(const Alone& first,
 TEST(Neighbours, showTheSameFishAtTheSamePlaceOfTheScreen) {
     const Installation installation("touring");  // its overlaps are wide
     const config::Rig& rig = installation.rig();
-    const auto channels = installation.show("--frames 2 --fish 2000 --deep");
+    const auto channels = installation.show("--fish 2000 --deep");
     for (std::size_t left = 0; left + 1 < rig.channels.size(); ++left) {
         const Alone first(rig, channels, left);
         const Alone second(rig, channels, left + 1);

@@ -12,7 +12,7 @@ import unittest
 import unittest.mock
 from pathlib import Path
 
-from show import BIN, ROOT, aquarama, children_of, rig_on_free_ports, start, temporary_folder, wait_until
+from show import BIN, EMPTY_SEA, ROOT, aquarama, children_of, rig_on_free_ports, start, temporary_folder, wait_until
 
 NOBODY = 65534
 FULL_AFTER = 300  # bytes: less than any file of these
@@ -240,7 +240,7 @@ class Shows(Case):
     """What a show writes: recording, trace, pictures, clip."""
 
     def rig(self):
-        return rig_on_free_ports(self.folder)
+        return rig_on_free_ports(self.folder, replace=EMPTY_SEA)
 
     def test_all_at_once_at_places_of_all_kinds(self):
         folder = self.fresh("show")
@@ -320,8 +320,8 @@ class LeftByKilledPrograms(Case):
         place = self.fresh("tmp")
         environment = {"TMPDIR": str(place)}
         with unittest.mock.patch.dict(os.environ, environment):
-            run = start("run", rig_on_free_ports(self.folder), "--headless", "--frames", 100000, "--pattern", "grid",
-                        "--clip", self.folder / "a.webp", "--record", self.folder / "a.aqrec")
+            run = start("run", rig_on_free_ports(self.folder, replace=EMPTY_SEA), "--headless", "--frames", 100000,
+                        "--pattern", "grid", "--clip", self.folder / "a.webp", "--record", self.folder / "a.aqrec")
         try:
             wait_until(lambda: len([*place.glob("aquarama.clip.*/*")]) == 3, 60, "the sockets of the clip")
             children = children_of(run).values()

@@ -30,6 +30,10 @@ def free_ports(count):
     return ports
 
 
+# Replacements of rig_on_free_ports(): a scene that is soon prepared, where neither fish nor reef count.
+EMPTY_SEA = [(r"scenes/reef\b", "scenes/empty_sea")]
+
+
 def rig_on_free_ports(folder, rig="desk", replace=()):
     """A copy of config/RIG.txtpb with ports of its own and other (pattern, text) replacements; returns its path."""
     text = (ROOT / f"config/{rig}.txtpb").read_text()

@@ -12,7 +12,7 @@ import termios
 import unittest
 from pathlib import Path
 
-from show import BIN, ROOT, ShowCase, aquarama, control_address, rig_on_free_ports, start, wait_until
+from show import BIN, EMPTY_SEA, ROOT, ShowCase, aquarama, control_address, rig_on_free_ports, start, wait_until
 
 HOURS = 'zone: "UTC"\nopen { days: [SUNDAY] from: "10:00" to: "18:00" }\n'
 
@@ -27,7 +27,7 @@ def other_disk():
 class Tour(ShowCase):
     def setUp(self):
         super().setUp()
-        self.rig = rig_on_free_ports(self.folder.name, replace=[(r"scenes/reef", "scenes/empty_sea")])
+        self.rig = rig_on_free_ports(self.folder.name, replace=EMPTY_SEA)
         self.record = Path(os.environ["XDG_STATE_HOME"]) / "aquarama/shows/desk.tour.json"
 
     def tour(self, *arguments, keys=""):

@@ -9,7 +9,8 @@ import time
 import unittest
 from pathlib import Path
 
-from show import BIN, ROOT, ShowCase, aquarama, control_address, free_ports, lacks, rig_on_free_ports, start, wait_until
+from show import (BIN, EMPTY_SEA, ROOT, ShowCase, aquarama, control_address, free_ports, lacks, rig_on_free_ports,
+                  start, wait_until)
 
 PROGRAMS = Path("/lib/nut")  # those of /usr/sbin ask /etc/nut/nut.conf first whether they may run
 NUT = ROOT / "packaging/nut"
@@ -100,7 +101,7 @@ class Ups(ShowCase):
     def setUp(self):
         super().setUp()
         folder = Path(self.folder.name)
-        self.rig = rig_on_free_ports(folder, replace=[(r"scenes/reef", "scenes/empty_sea"),
+        self.rig = rig_on_free_ports(folder, replace=[*EMPTY_SEA,
                                                       ('name: "left"', 'name: "left" machine: "left-pc"'),
                                                       ('name: "right"', 'name: "right" machine: "right-pc"')])
         self.rig = self.rig.rename(folder / "hall.txtpb")

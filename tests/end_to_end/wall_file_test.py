@@ -11,8 +11,8 @@ import unittest
 from array import array
 from pathlib import Path
 
-from show import (CHANNELS, ROOT, aquarama, end, give_colours, rig_on_free_ports, start, temporary_folder, trace,
-                  wait_until)
+from show import (CHANNELS, EMPTY_SEA, ROOT, aquarama, end, give_colours, rig_on_free_ports, start, temporary_folder,
+                  trace, wait_until)
 
 sys.path.insert(0, str(ROOT / "packaging"))
 from check_pictures import read_png  # noqa: E402
@@ -53,7 +53,7 @@ def write_map_of_4k(path, turned_degrees):
 class WallFile(unittest.TestCase):
     def setUp(self):
         self.folder = temporary_folder()
-        self.desk = rig_on_free_ports(self.folder.name)
+        self.desk = rig_on_free_ports(self.folder.name, replace=EMPTY_SEA)
         self.file = Path(self.folder.name) / "hall.mpcdi"
         made = aquarama("convert", self.desk, self.file)
         self.assertEqual(made.returncode, 0, made.stderr)

@@ -7,11 +7,11 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 
+#include "common/base/units.h"
+
 namespace aquarama::test {
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 double hueDegrees(double a, double b) {
     if (a == 0 && b == 0) return 0;

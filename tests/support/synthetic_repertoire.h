@@ -12,6 +12,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "common/base/units.h"
 #include "common/motion/repertoire.h"
 
 namespace aquarama::synthetic {
@@ -30,7 +31,6 @@ struct Gait {
 
 inline std::array<Gait, motion::kCapturedActions> gaits() {
     using motion::Action;
-    constexpr double kDegree = std::numbers::pi / 180.0;
     std::array<Gait, motion::kCapturedActions> all;
     const auto of = [&](Action action) -> Gait& { return all.at(indexOf(action)); };
     for (std::size_t gait = 0; gait < motion::kForwardGaits; ++gait) {

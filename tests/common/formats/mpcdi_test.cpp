@@ -11,6 +11,7 @@
 
 #include "common/base/files.h"
 #include "common/base/picture.h"
+#include "common/base/units.h"
 #include "tests/common/formats/sample_walls.h"
 
 namespace aquarama::formats {
@@ -20,8 +21,6 @@ using test::archiveOf;
 using test::bytesOf;
 using test::expectSame;
 using test::kManifest;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // The text with something else in the place of a part, which must be there.
 std::string with(std::string text, const std::string& part, const std::string& other) {

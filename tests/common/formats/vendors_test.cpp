@@ -13,6 +13,7 @@
 
 #include "common/base/files.h"
 #include "common/base/log.h"
+#include "common/base/units.h"
 #include "tests/common/formats/vendor_samples.h"
 #include "tests/support/count_memory.h"
 
@@ -21,7 +22,6 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr double kDegree = std::numbers::pi / 180;
 const std::string kDome = AQUARAMA_SOURCE_DIR "/../shared/data/dome_nrkp/";
 
 bool withoutData() {

@@ -11,12 +11,12 @@
 #include <gtest/gtest.h>
 
 #include "common/base/files.h"
+#include "common/base/units.h"
 #include "tests/common/formats/sample_walls.h"
 
 namespace aquarama::formats {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 const glm::dvec3 kForward(0, 0, -1), kUp(0, 1, 0), kRight(1, 0, 0);
 
 void expectNear(glm::dvec3 a, glm::dvec3 b) {

@@ -8,12 +8,11 @@
 
 #include <glm/gtc/quaternion.hpp>
 
+#include "common/base/units.h"
 #include "common/motion/motor.h"
 #include "tests/support/synthetic_repertoire.h"
 
 namespace aquarama::motion {
-
-inline constexpr double kDegree = std::numbers::pi / 180.0;
 
 inline const Repertoire& sharedRepertoire() {
     static const Repertoire kRepertoire = test::syntheticRepertoire(true);

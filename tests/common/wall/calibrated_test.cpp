@@ -23,7 +23,6 @@ constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
 
 // Wide enough for all that the desk's wall shows.
 formats::Frustum wideFrustum(double yaw) {
-    constexpr double kDegree = kRadiansPerDegree<double>;
     return {.yaw = yaw * kDegree,
             .pitch = 2 * kDegree,
             .roll = -3 * kDegree,

@@ -16,8 +16,6 @@
 namespace aquarama::wall {
 namespace {
 
-constexpr double kDegree = kRadiansPerDegree<double>;
-
 config::Screen flatScreen() {
     config::Screen screen;
     screen.shape = config::ScreenShape::Flat;

@@ -8,12 +8,11 @@
 
 #include <gtest/gtest.h>
 
+#include "common/base/units.h"
 #include "common/config/rig.h"
 
 namespace aquarama::study {
 namespace {
-
-constexpr double kDegree = kRadiansPerDegree<double>;
 
 config::Rig rigOf(const std::string& name) {
     return config::readRig(AQUARAMA_SOURCE_DIR "/config/" + name + ".txtpb");

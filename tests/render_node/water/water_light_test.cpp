@@ -10,13 +10,13 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "common/base/units.h"
 #include "render_node/water/water_tables.h"
 #include "tests/support/water_comparison.h"
 
 namespace aquarama::test {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 const glm::dvec3 kSun{scene::sunInWater()};
 
 const ForwardPhase& phase() {
