@@ -178,7 +178,7 @@ function(aquarama_suite name)
   if(NOT ARG_REAL_TIME AND NOT ARG_WAITS)
     set(WHEN chrt --idle 0)
   endif()
-  add_test(NAME ${name} COMMAND ${PROJECT_SOURCE_DIR}/tests/support/timed.sh ${CMAKE_BINARY_DIR}/processor_time/${name}
+  add_test(NAME ${name} COMMAND ${PROJECT_SOURCE_DIR}/tests/support/timed.py ${CMAKE_BINARY_DIR}/processor_time/${name}
     ${WHEN} ${ARG_COMMAND})
   set(FOLDERS "XDG_CACHE_HOME=${CMAKE_BINARY_DIR}/cache;XDG_STATE_HOME=${CMAKE_BINARY_DIR}/state")
   set_tests_properties(${name} PROPERTIES WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}

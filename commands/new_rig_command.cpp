@@ -59,7 +59,7 @@ std::vector<std::string> wordsIn(const std::string& text) {
 }
 
 // Parses "1920x1080"; empty for any other text.
-std::optional<glm::ivec2> sizeIn(const std::string& text) {
+std::optional<glm::ivec2> sizeIfAny(const std::string& text) {
     glm::ivec2 size{};
     int end = 0;
     const bool isSize = std::sscanf(text.c_str(), "%5dx%5d%n", &size.x, &size.y, &end) ==
@@ -214,7 +214,7 @@ NewRigWishes wishesIn(const NewRigOptions& options) {
     if (kind != kKinds.end()) wishes.kind = static_cast<WallKind>(kind - kKinds.begin());
     for (const std::string& word : wordsIn(options.monitors))
         wishes.connectors.push_back(machine::connectorName(word));
-    if (!options.size.empty()) wishes.sizePixels = sizeIn(options.size);
+    if (!options.size.empty()) wishes.sizePixels = sizeIfAny(options.size);
     if (wishes.scene.empty()) wishes.scene = sceneFor(options.file);
     return wishes;
 }
@@ -300,7 +300,7 @@ void addNewRig(CommandLine& line) {
     const auto [command, options] = line.add<NewRigOptions>(
         "new-rig", "write a rig for this wall, from questions or options", newRig);
     const auto isSize = [](const std::string& text) {
-        return sizeIn(text) ? std::string() : text + " is no size, as 1920x1080";
+        return sizeIfAny(text) ? std::string() : text + " is no size, as 1920x1080";
     };
     const auto isFileName = [](const std::string& text) {
         return text.ends_with(".txtpb") ? std::string() : text + " must end in .txtpb";

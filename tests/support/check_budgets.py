@@ -2,10 +2,10 @@
 """Holds the processor time of each suite against tests/budgets.csv: check_budgets.py build/dev.
 
 A suite may take half as much again as its budget. Machines differ: where the median suite takes longer than its budget,
-all budgets grow by as much."""
+all budgets grow by as much. A machine that shares its processors with others differs from minute to minute: a fixed
+piece of work, done beside each suite, tells by how much."""
 
 import csv
-import re
 import statistics
 import sys
 from pathlib import Path
@@ -21,12 +21,14 @@ def read_budgets(path):
 
 
 def read_times(folder):
-    """Suite -> seconds, user and system, from what timed.sh wrote: the second line is the children's."""
-    taken = {}
-    for path in Path(folder).iterdir():
-        children = path.read_text().splitlines()[1]
-        taken[path.name] = sum(60 * int(m) + float(s) for m, s in re.findall(r"(\d+)m([\d.]+)s", children))
-    return taken
+    """Suite -> seconds, and the milliseconds of the piece of work beside it, as timed.py wrote them."""
+    return {path.name: tuple(map(float, path.read_text().split())) for path in Path(folder).iterdir()}
+
+
+def at_one_speed(times):
+    """Suite -> the seconds that it had taken if the machine had always been as slow as beside the median suite."""
+    median = statistics.median(piece for _, piece in times.values())
+    return {suite: seconds * median / piece for suite, (seconds, piece) in times.items()}
 
 
 def slowness(taken, budgets):
@@ -54,7 +56,8 @@ def complaints(taken, budgets):
 
 
 def main(build):
-    taken, budgets = read_times(Path(build) / "processor_time"), read_budgets(FILE)
+    times, budgets = read_times(Path(build) / "processor_time"), read_budgets(FILE)
+    taken = at_one_speed(times)
     print(f"{'suite':<28}{'seconds':>9}{'budget':>9}   of processor time")
     for suite in sorted(taken, key=taken.get, reverse=True):
         print(f"{suite:<28}{taken[suite]:>9.1f}{budgets.get(suite, 0):>9.0f}")

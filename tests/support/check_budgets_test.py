@@ -1,11 +1,14 @@
 """What check_budgets.py says of a suite that grew, of one without a budget, and of a machine that is slow."""
 
+import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-from check_budgets import FILE, complaints, read_budgets, read_times
+from check_budgets import FILE, at_one_speed, complaints, read_budgets, read_times
 
+TIMED = Path(__file__).with_name("timed.py")
 BUDGETS = {"reef": 20.0, "motion": 10.0, "wall": 6.0, "body": 1.0}
 
 
@@ -37,10 +40,26 @@ class Budgets(unittest.TestCase):
         fast = {suite: seconds / 2 for suite, seconds in BUDGETS.items()}
         self.assertEqual(complaints(fast | {"motion": 10.0}, BUDGETS), [])
 
-    def test_the_childrens_time_is_read_user_and_system(self):
+    def test_a_suite_is_not_named_for_slow_minutes_of_the_machine(self):
+        times = {suite: (seconds, 20.0) for suite, seconds in BUDGETS.items()} | {"reef": (40.0, 40.0)}
+        self.assertEqual(complaints(at_one_speed(times), BUDGETS), [])
+        self.assertEqual(len(complaints(at_one_speed(times | {"reef": (40.0, 20.0)}), BUDGETS)), 1)
+
+    def test_what_a_command_and_its_children_took_is_written_with_its_status(self):
         with tempfile.TemporaryDirectory() as folder:
-            Path(folder, "reef").write_text("0m0.010000s 0m0.020000s\n1m2.500000s 0m1.250000s\n")
-            self.assertEqual(read_times(folder), {"reef": 63.75})
+            spin = "import time\nwhile time.process_time() < 0.3: pass"
+            run = subprocess.run([TIMED, Path(folder, "spin"), "sh", "-c", f"{sys.executable} -c '{spin}'; exit 3"])
+            killed = subprocess.run([TIMED, Path(folder, "killed"), "sh", "-c", "kill -9 $$"])
+            self.assertEqual((run.returncode, killed.returncode), (3, 128 + 9))
+            seconds, piece = read_times(folder)["spin"]
+            self.assertGreaterEqual(seconds, 0.3)
+            self.assertGreater(piece, 0)
+
+    def test_a_command_ends_where_nobody_reads_what_it_writes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            run = subprocess.run(["bash", "-c", f"{TIMED} {folder}/yes yes | head -n 1; exit ${{PIPESTATUS[0]}}"],
+                                 stdout=subprocess.DEVNULL)
+            self.assertEqual(run.returncode, 128 + 13)
 
     def test_the_file_in_the_tree_is_sorted_and_read(self):
         budgets = read_budgets(Path(__file__).resolve().parents[2] / FILE)
