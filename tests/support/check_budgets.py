@@ -26,9 +26,9 @@ def read_times(folder):
 
 
 def at_one_speed(times):
-    """Suite -> the seconds that it had taken if the machine had always been as slow as beside the median suite."""
+    """Suite -> the seconds that it had taken if the machine had never been slower than beside the median suite."""
     median = statistics.median(piece for _, piece in times.values())
-    return {suite: seconds * median / piece for suite, (seconds, piece) in times.items()}
+    return {suite: seconds * min(1, median / piece) for suite, (seconds, piece) in times.items()}
 
 
 def slowness(taken, budgets):

@@ -45,6 +45,10 @@ class Budgets(unittest.TestCase):
         self.assertEqual(complaints(at_one_speed(times), BUDGETS), [])
         self.assertEqual(len(complaints(at_one_speed(times | {"reef": (40.0, 20.0)}), BUDGETS)), 1)
 
+    def test_quick_minutes_tighten_no_budget(self):
+        times = {suite: (seconds, 20.0) for suite, seconds in BUDGETS.items()} | {"reef": (25.0, 10.0)}
+        self.assertEqual(complaints(at_one_speed(times), BUDGETS), [])
+
     def test_what_a_command_and_its_children_took_is_written_with_its_status(self):
         with tempfile.TemporaryDirectory() as folder:
             spin = "import time\nwhile time.process_time() < 0.3: pass"
