@@ -1,7 +1,7 @@
 # The functions that every CMakeLists.txt here uses. Each folder is one static library and has one test program.
 
 # With CMAKE_UNITY_BUILD so many sources of a folder are compiled as one: what they include is parsed once, which takes
-# less than half the time. In a folder a name of an unnamed namespace therefore stands for one thing. A source still
+# about half the time. In a folder a name of an unnamed namespace therefore stands for one thing. A source still
 # includes what it uses: the dev preset, by hand, and ./test --tidy compile each by itself.
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 16)
 if(CMAKE_UNITY_BUILD)  # GCC takes the sources for headers, and what is a source's own for a mistake
