@@ -44,7 +44,7 @@ constexpr float kFacesFrom = 0.02F;
 
 // A dart at a particle: how long it lasts, how far the fish looks, and the threat from which it
 // picks no more.
-constexpr std::uint64_t kStartTicks = 26;
+constexpr std::uint64_t kDartTicks = 26;
 constexpr float kDartLengths = 2.5F;
 constexpr float kPicksUntil = 0.2F;
 
@@ -92,9 +92,9 @@ std::optional<std::uint32_t> presentDart(const Situation& situation) {
     const std::uint64_t now = situation.environment.tick.value + own % gap;
     const std::uint32_t pick = hashOf(own, static_cast<std::uint32_t>(now / gap));
     // It begins at some time within the gap, so that nobody picks in time with another.
-    const std::uint64_t begins = pick % (gap > kStartTicks ? gap - kStartTicks : 1);
+    const std::uint64_t begins = pick % (gap > kDartTicks ? gap - kDartTicks : 1);
     const std::uint64_t since = now % gap;
-    if (since < begins || since >= begins + kStartTicks) return {};
+    if (since < begins || since >= begins + kDartTicks) return {};
     return pick;
 }
 
