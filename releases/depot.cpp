@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <utility>
 
 #include <spdlog/fmt/fmt.h>
 
@@ -83,6 +84,7 @@ void Depot::run() {
         while (const auto from = channels_->receiveControl()) hear(*from);
         static_cast<void>(channels_->discardNoise());
         const double now = net::monotonicSeconds();
+        endCheck(now);
         rollout_.pass(now);
         goWhenClosed(now);
         keepState();
@@ -112,7 +114,7 @@ void Depot::hear(const net::FromPeer& from) {
     v1::DepotMessage answer;
     if (message->has_report()) answer = orderFor(from.user, message->report());
     if (message->has_piece_request()) answer = pieceFor(message->piece_request());
-    if (message->has_request()) answer = replyTo(from.user, message->request());
+    if (message->has_request()) answer = replyTo(from, message->request());
     if (answer.message_case() != v1::DepotMessage::MESSAGE_NOT_SET)
         channels_->sendControl(from.peer, encode(answer));
 }
@@ -144,39 +146,63 @@ v1::DepotMessage Depot::pieceFor(const v1::PieceRequest& request) const {
     return answer;
 }
 
-v1::DepotMessage Depot::replyTo(const std::string& user, const v1::DepotRequest& request) {
-    v1::DepotMessage answer;
-    v1::DepotReply& reply = *answer.mutable_reply();
-    reply.set_number(request.number());
+v1::DepotMessage Depot::replyTo(const net::FromPeer& from, const v1::DepotRequest& request) {
     try {
         const bool isQuestion = request.what() == v1::DepotRequest::STATUS;
-        if (setup_.hasKeys && !isQuestion && partsOf(user).first != "crew")
+        if (setup_.hasKeys && !isQuestion && partsOf(from.user).first != "crew")
             throw Error("only the crew changes the release; show its key (--key)");
+        if (request.what() == v1::DepotRequest::STAGE) {
+            beginCheck(from, request);
+            return {};
+        }
         carryOut(request);
+        return answerTo(request.number(), "");
     } catch (const Error& problem) {
-        reply.set_refusal(legible(problem.what(), kMostTextBytes));
+        return answerTo(request.number(), problem.what());
     }
+}
+
+// Empty refusal: it was done.
+v1::DepotMessage Depot::answerTo(std::uint32_t number, const std::string& refusal) {
     keepState();
+    v1::DepotMessage answer;
+    v1::DepotReply& reply = *answer.mutable_reply();
+    reply.set_number(number);
+    if (!refusal.empty()) reply.set_refusal(legible(refusal, kMostTextBytes));
     describe(reply);
     return answer;
 }
 
-// A release is checked whole before any machine hears of it.
 void Depot::carryOut(const v1::DepotRequest& request) {
     const double now = net::monotonicSeconds();
-    switch (request.what()) {
-        case v1::DepotRequest::STAGE: {
-            if (!isVersion(request.version())) throw Error("name the version of a release");
-            const fs::path folder = setup_.folder / request.version();
-            return rollout_.stage(checkRelease(folder, setup_.key).id, now);
-        }
-        case v1::DepotRequest::GO:
-            return rollout_.go(now);
-        case v1::DepotRequest::BACK:
-            return rollout_.back(now);
-        default:
-            return;
+    if (request.what() == v1::DepotRequest::GO) rollout_.go(now);
+    if (request.what() == v1::DepotRequest::BACK) rollout_.back(now);
+}
+
+// A release is checked whole before any machine hears of it. That takes seconds, and a minute on a
+// slow disk: machines are heard meanwhile.
+void Depot::beginCheck(const net::FromPeer& from, const v1::DepotRequest& request) {
+    if (!isVersion(request.version())) throw Error("name the version of a release");
+    if (check_) throw Error("another release is being checked; wait for its end");
+    check_ = Check{from.peer,
+                   request.number(),
+                   std::async(std::launch::async,
+                              [folder = setup_.folder / request.version(), &key = setup_.key] {
+                                  return checkRelease(folder, key);
+                              })};
+}
+
+void Depot::endCheck(double now) {
+    if (!check_ || check_->content.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+        return;
+    Check check = *std::exchange(check_, std::nullopt);
+    std::string refusal;
+    try {
+        rollout_.stage(check.content.get().id, now);
+    } catch (const Error& problem) {
+        refusal = problem.what();
     }
+    channels_->sendControl(check.peer, encode(answerTo(check.number, refusal)));
 }
 
 void Depot::describe(v1::DepotReply& reply) const {

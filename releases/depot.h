@@ -6,6 +6,7 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <map>
 #include <memory>
 #include <optional>
@@ -46,13 +47,24 @@ class Depot {
     void stop();
 
   private:
+    // A release that is checked beside the machines' reports, and who waits for the answer.
+    struct Check {
+        net::PeerId peer;
+        std::uint32_t number = 0;  // of the request
+        std::future<ReleaseContent> content;
+    };
+
     void hear(const net::FromPeer& from);
     [[nodiscard]] v1::DepotMessage orderFor(const std::string& user,
                                             const v1::MachineReport& report);
     [[nodiscard]] v1::DepotMessage pieceFor(const v1::PieceRequest& request) const;
-    [[nodiscard]] v1::DepotMessage replyTo(const std::string& user,
+    // Nothing where the answer comes later.
+    [[nodiscard]] v1::DepotMessage replyTo(const net::FromPeer& from,
                                            const v1::DepotRequest& request);
+    [[nodiscard]] v1::DepotMessage answerTo(std::uint32_t number, const std::string& refusal);
     void carryOut(const v1::DepotRequest& request);
+    void beginCheck(const net::FromPeer& from, const v1::DepotRequest& request);
+    void endCheck(double now);
     void describe(v1::DepotReply& reply) const;
     // Returns when the state is on the disk.
     void keepState();
@@ -63,6 +75,7 @@ class Depot {
     std::filesystem::path file_;
     std::optional<RolloutState> kept_;
     Rollout rollout_;
+    std::optional<Check> check_;
     double askedHoursAt_ = 0;
     std::atomic<bool> isOver_ = false;
 };

@@ -318,6 +318,20 @@ class Releases(unittest.TestCase):
         self.assertRegex(self.hall.ask("stage", "1.1", key="watcher").stderr, "only the crew changes the release")
         self.assertRegex(self.hall.ask("go").stderr, "no release waits")
 
+    def test_machines_are_heard_while_a_release_is_checked(self):
+        self.hall.release("1.1", size=150_000_000)
+        stage = subprocess.Popen([BIN / "aquarama", "release", "stage", self.hall.rig, "1.1", "--key",
+                                  self.hall.keys / "crew.key"], stdout=subprocess.DEVNULL)
+        meanwhile = []
+        while stage.poll() is None:
+            other, status = self.hall.ask("stage", "1.0"), self.hall.status()
+            if stage.poll() is None:
+                meanwhile.append((other.stderr, status["phase"], len(status["machines"])))
+        self.assertIn(("aquarama release stage: another release is being checked; wait for its end\n", "settled", 3),
+                      meanwhile)
+        self.assertEqual(stage.returncode, 0)
+        self.assertEqual(self.hall.status()["candidate"]["version"], "1.1")
+
     def test_a_machine_refuses_what_was_changed_after_it_was_staged(self):
         self.hall.release("1.1", size=30_000_000)
         self.assertEqual(self.hall.ask("stage", "1.1").returncode, 0)
