@@ -38,6 +38,7 @@ __attribute__((constructor)) static void go_blind(void) { epoxy_glDrawArrays = n
 class Hall:
     def __init__(self, folder, image, pictures, screens, key):
         self.folder, self.screens, self.key = folder, screens, key
+        self.serial = int(time.time())  # of the newest release
         self.version = re.fullmatch(r"aquarama-(.*)\.img", image.name)[1]
         self.master, self.spare = self.machines = [self.installed(image, *mode) for mode in
                                                    (("master", "show"), ("spare", "node"))]
@@ -110,21 +111,24 @@ class Hall:
 
     # --- releases
 
-    def make_release(self, version):
+    def system_of_releases(self):
+        """The folder that becomes the root of each release: that of the image, and what makes faults of it."""
+        tree = self.folder / "tree"
+        called("mcopy", "-n", "-i", self.master.system(), f"::aquarama/{self.version}/filesystem.squashfs",
+               self.folder)
+        called("unsquashfs", "-q", "-n", "-d", tree, self.folder / "filesystem.squashfs")
+        shutil.rmtree(tree / "usr/lib/firmware", ignore_errors=True)  # of no use here, and long to copy
+        shutil.copy(tree / "usr/bin/aquarama-node", tree / "usr/lib/aquarama/aquarama-node")
+        (self.folder / "blind.c").write_text(BLIND)
+        called("cc", "-shared", "-fPIC", "-o", tree / "usr/lib/aquarama/blind.so", self.folder / "blind.c", "-lepoxy")
+        return tree
+
+    def make_release(self, version, tree):
         """A release of another version, in the depot of the master's machine, which is off."""
-        self.folder.joinpath(version).mkdir()
-        tree, release = self.folder / "tree", self.folder / version
+        release = self.folder / version
+        release.mkdir()
         for file in ("vmlinuz", "initrd.img"):
             called("mcopy", "-n", "-i", self.master.system(), f"::aquarama/{self.version}/{file}", release)
-        if not tree.exists():
-            called("mcopy", "-n", "-i", self.master.system(), f"::aquarama/{self.version}/filesystem.squashfs",
-                   self.folder)
-            called("unsquashfs", "-q", "-n", "-d", tree, self.folder / "filesystem.squashfs")
-            shutil.rmtree(tree / "usr/lib/firmware", ignore_errors=True)  # of no use here, and long to copy
-            shutil.copy(tree / "usr/bin/aquarama-node", tree / "usr/lib/aquarama/aquarama-node")
-            (self.folder / "blind.c").write_text(BLIND)
-            called("cc", "-shared", "-fPIC", "-o", tree / "usr/lib/aquarama/blind.so", self.folder / "blind.c",
-                   "-lepoxy")
         (tree / "usr/lib/aquarama/image/version").write_text(f"{version}\n")
         node = tree / "usr/bin/aquarama-node"
         if version in FAULTS:
@@ -132,8 +136,10 @@ class Hall:
         called("mksquashfs", tree, release / "filesystem.squashfs", "-comp", "zstd", "-Xcompression-level", "3",
                "-no-progress")
         shutil.copy(tree / "usr/lib/aquarama/aquarama-node", node)
-        sign_release(release, version, self.key, int(time.time()))
+        self.serial += 1
+        sign_release(release, version, self.key, self.serial)
         self.master.put_in_data(release, "/var/lib/aquarama/releases")
+        shutil.rmtree(release)
 
     def status(self):
         return self.master.tell("aquarama-hall release status hall.txtpb 2>&1")
@@ -141,10 +147,15 @@ class Hall:
     def await_status(self, what):
         wait_until(lambda: re.search(what, self.status()), MOST_SECONDS, f"{what}: {self.status()}")
 
+    def allow(self, seconds):
+        """So long all machines may take to show a release."""
+        self.master.tell(f"echo 'DEPOT=\"--frames 20 --seconds {seconds}\"' >/etc/aquarama/depot.conf; sync; "
+                         "systemctl try-restart --no-block aquarama-depot")
+
     def begin_depot(self):
         """The second machine follows it by itself, as its key names it."""
+        self.allow(1200)
         self.master.tell("echo 'FOLLOW=\"--key /etc/aquarama/keys/hall/crew.key\"' >/etc/aquarama/follow.conf; "
-                         "echo 'DEPOT=\"--frames 20 --seconds 900\"' >/etc/aquarama/depot.conf; "
                          "install -d -o aquarama -g aquarama /var/lib/aquarama/releases; sync; "
                          "systemctl start --no-block aquarama-depot aquarama-follow")
         self.await_status(f"all run {re.escape(self.version)}")
@@ -167,30 +178,31 @@ class Hall:
         print(self.master.tell("aquarama-hall release go hall.txtpb 2>&1").strip(), flush=True)
 
     def take_releases(self, cuts):
-        self.make_release("9.1")
+        """Returns how many seconds passed from the word until 9.1 was good on both."""
         self.master.power_on()
         self.await_shown(self.master, "left", "middle")
         self.activate("9.1", cuts)
+        began = time.monotonic()
         self.await_status(r"all run 9\.1")
+        needed = round(time.monotonic() - began)
+        print(f"both run 9.1 {needed} s after the word", flush=True)
+        self.await_released("9.1")
+        return needed
+
+    def await_released(self, version):
         self.await_shown(self.master, "left", "middle")
         self.await_shown(self.spare, "right")
-        assert {self.boots_of(machine) for machine in self.machines} == {"9.1"}
-        for version in FAULTS:
-            self.leave_again(version)
+        assert {self.boots_of(machine) for machine in self.machines} == {version}
 
     def leave_again(self, version):
-        self.master.cut_power()
-        self.make_release(version)
-        self.master.power_on()
-        self.await_status(r"all run 9\.1")
         self.activate(version)
+        began = time.monotonic()
         self.await_status(rf"release {re.escape(version)} was left: \S+ has presented 0 of 20 frames")
-        print(self.status(), flush=True)
+        self.await_status(r"all run 9\.1")
+        print(f"both run 9.1 again {round(time.monotonic() - began)} s after the word\n{self.status()}", flush=True)
         if version == "9.4":
             assert "draws a black picture" in self.spare.log(), "it was left for another reason"
-        self.await_shown(self.master, "left", "middle")
-        self.await_shown(self.spare, "right")
-        assert {self.boots_of(machine) for machine in self.machines} == {"9.1"}
+        self.await_released("9.1")
 
 
 def main(image, pictures, screens, key, cuts="2"):
@@ -215,7 +227,13 @@ def main(image, pictures, screens, key, cuts="2"):
             hall.await_shown(hall.spare, "right")
             print("it comes back with its channel after a power cut", flush=True)
             hall.master.cut_power()
-            hall.take_releases(int(cuts))
+            tree = hall.system_of_releases()
+            for version in ("9.1", *FAULTS):
+                hall.make_release(version, tree)
+            needed = hall.take_releases(int(cuts))
+            hall.allow(2 * needed)
+            for version in FAULTS:
+                hall.leave_again(version)
         except BaseException:
             for machine in hall.machines:
                 serial = machine.folder / "serial"
