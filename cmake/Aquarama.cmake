@@ -146,7 +146,7 @@ function(aquarama_collect_links target result)
   set(${result} ${seen} PARENT_SCOPE)
 endfunction()
 
-# aquarama_test(motion [WAITS|REAL_TIME] SOURCES a_test.cpp ... [LINK targets...]): one program, one ctest row.
+# aquarama_test(motion [KIND] SOURCES a_test.cpp ... [LINK targets...]): one program, one ctest row.
 function(aquarama_test name)
   cmake_parse_arguments(ARG "WAITS;REAL_TIME" "" "SOURCES;LINK" ${ARGN})
   add_executable(aquarama_${name}_test ${ARG_SOURCES})
@@ -163,19 +163,20 @@ function(aquarama_test name)
   aquarama_suite(${name} ${KIND} COMMAND $<TARGET_FILE:aquarama_${name}_test>)
 endfunction()
 
-# aquarama_suite(motion [WAITS|REAL_TIME] COMMAND command...): a ctest row whose processor time is compared with its
+# aquarama_suite(motion [KIND] COMMAND command...): a ctest row whose processor time is compared with its
 # line in tests/budgets.csv. The timeouts of the test presets are only for programs that hang. Software OpenGL draws
-# with one thread. The user's cache of the programs is in the build folder. What runs at once, where ctest has twice as
-# many places as there are processors:
+# with one thread. The user's cache of the programs is in the build folder. What runs at once, where ctest has four
+# places for each processor:
 #   REAL_TIME: processes wait for one another by the clock, on ports that others use too. One at a time, at first, and
-#              beside it only suites that compute.
-#   WAITS:     a clock counts, but nothing is drawn in time. Beside all but the former.
-#   neither:   computes, and takes the processor when no other process wants it.
+#              beside it only the next kind and suites that compute.
+#   PATIENT:   real processes too, which wait for most of the time and have minutes for each step. One at a time.
+#   WAITS:     a clock counts, but nothing is drawn in time. Beside all but REAL_TIME.
+#   none:      computes, and takes the processor when no other process wants it.
 function(aquarama_suite name)
-  cmake_parse_arguments(ARG "WAITS;REAL_TIME" "" "COMMAND" ${ARGN})
+  cmake_parse_arguments(ARG "REAL_TIME;PATIENT;WAITS" "" "COMMAND" ${ARGN})
   file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/processor_time)
   set(WHEN "")
-  if(NOT ARG_REAL_TIME AND NOT ARG_WAITS)
+  if(NOT ARG_REAL_TIME AND NOT ARG_PATIENT AND NOT ARG_WAITS)
     set(WHEN chrt --idle 0)
   endif()
   add_test(NAME ${name} COMMAND ${PROJECT_SOURCE_DIR}/tests/support/timed.py ${CMAKE_BINARY_DIR}/processor_time/${name}
@@ -184,8 +185,12 @@ function(aquarama_suite name)
   set_tests_properties(${name} PROPERTIES WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
     ENVIRONMENT "AQUARAMA_BIN=${CMAKE_BINARY_DIR}/bin;LP_NUM_THREADS=1;${FOLDERS}")
   if(ARG_REAL_TIME)
-    set_tests_properties(${name} PROPERTIES PROCESSORS 3 RESOURCE_LOCK wall COST 2000)
+    set_tests_properties(${name} PROPERTIES PROCESSORS 5 RESOURCE_LOCK wall COST 3000)
+  elseif(ARG_PATIENT)
+    set_tests_properties(${name} PROPERTIES PROCESSORS 1 RESOURCE_LOCK patience COST 2000)
   elseif(ARG_WAITS)
-    set_tests_properties(${name} PROPERTIES PROCESSORS 2 COST 1000)
+    set_tests_properties(${name} PROPERTIES PROCESSORS 4 COST 1000)
+  else()
+    set_tests_properties(${name} PROPERTIES PROCESSORS 2)
   endif()
 endfunction()

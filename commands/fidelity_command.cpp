@@ -16,9 +16,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "capture/capture_repertoire.h"
 #include "capture/film/film.h"
 #include "capture/film/film_script.h"
+#include "capture/repertoire_files.h"
 #include "capture/report/fidelity.h"
 #include "commands/commands.h"
 #include "common/base/counted.h"
@@ -148,7 +148,7 @@ motion::Repertoire repertoireOf(const config::Species& species) {
     cli::Progress bar("capturing");
     const capture::RepertoireFile file =
         capture::repertoiresFor({species},
-                                cacheFolder() / "repertoires",
+                                capture::repertoireFolders(),
                                 {.progress = [&](double share) { bar.show(share); }})
             .front();
     if (!file.error.empty()) throw Error(file.error);

@@ -10,7 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <spdlog/fmt/fmt.h>
 
-#include "capture/capture_repertoire.h"
+#include "capture/repertoire_files.h"
 #include "capture/report/report_data.h"
 #include "commands/commands.h"
 #include "common/base/counted.h"

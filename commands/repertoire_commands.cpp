@@ -15,7 +15,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "capture/capture_repertoire.h"
+#include "capture/repertoire_files.h"
 #include "capture/report/forms.h"
 #include "capture/report/gltf.h"
 #include "capture/report/report_data.h"
@@ -50,7 +50,7 @@ std::vector<capture::RepertoireFile> captured(const std::vector<config::Species>
     const cli::SignalWatch watch([&] { isStopped = true; });
     cli::Progress bar("capturing");
     return capture::repertoiresFor(species,
-                                   cacheFolder() / "repertoires",
+                                   capture::repertoireFolders(),
                                    {.progress = [&](double share) { bar.show(share); },
                                     .isStopped = [&] { return isStopped.load(); }});
 }

@@ -19,8 +19,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "capture/capture_repertoire.h"
 #include "capture/gait_trial.h"
+#include "capture/repertoire_files.h"
 #include "capture/report/report_data.h"
 #include "capture/search.h"
 #include "capture/start_figures.h"

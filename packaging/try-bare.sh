@@ -26,11 +26,13 @@ try() {
         while IFS= read -r line; do printf "%(%s)T %s\n" -1 "$line"; done' >"$log" ||
         { tail -n 30 "$log" >&2; echo "try-bare.sh: ./run failed on $release" >&2; exit 1; }
     installed=$(second_of "$log" configuring head)
-    built=$(second_of "$log" '\[[0-9]+/[0-9]+\]' tail)
+    built=$(second_of "$log" 'no display' head)
     pictured=$(stat -c %Y "$root/aquarama/pictures/panorama.png")
     printf '%s: packages %d s, build %d s, first picture %d s\n' "$release" \
         $((installed - start)) $((built - installed)) $((pictured - built))
     python3 packaging/check_pictures.py "$root/aquarama/pictures"
+    ! grep -q "species: once on this machine" "$log" ||
+        { echo "try-bare.sh: fish are captured on $release although the build has captured them" >&2; exit 1; }
 
     if [ ! -f "$work/reef.aqrec" ]; then
         in_system "$root" 'build/show/bin/aquarama run --headless --pattern grey --frames 601 --record reef.aqrec' \

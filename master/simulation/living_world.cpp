@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "capture/capture_repertoire.h"
+#include "capture/repertoire_files.h"
 #include "common/base/digest.h"
 #include "common/base/files.h"
 #include "common/base/log.h"
@@ -77,7 +77,7 @@ std::vector<capture::RepertoireFile> capturedOnce(
         show(0);
     };
     std::vector<capture::RepertoireFile> files = capture::repertoiresFor(
-        species, cacheFolder() / "repertoires", {.progress = show, .begins = begin});
+        species, capture::repertoireFolders(), {.progress = show, .begins = begin});
     // A species that cannot be captured has an error instead of bytes.
     for (const capture::RepertoireFile& file : files)
         if (!file.error.empty()) throw Error(file.error);

@@ -5,7 +5,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "capture/capture_repertoire.h"
+#include "capture/repertoire_files.h"
 
 namespace aquarama::bench {
 namespace {

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "capture/capture_repertoire.h"
+#include "capture/repertoire_files.h"
 #include "capture/report/report_data.h"
 #include "common/base/log.h"
 #include "common/config/text_file.h"
@@ -29,7 +29,7 @@ class RepertoireCache : public testing::Test {
     bool fetch() {
         bool simulated = false;
         const RepertoireFile file = repertoiresFor({config::parseSpecies(text_, "scad")},
-                                                   folder_,
+                                                   {.own = folder_, .shipped = shipped_},
                                                    {.progress = [&](double) { simulated = true; }})
                                         .front();
         bytes_ = file.bytes;
@@ -41,6 +41,7 @@ class RepertoireCache : public testing::Test {
     }
 
     fs::path folder_ = fs::path(testing::TempDir()) / "aquarama_repertoire_cache";
+    fs::path shipped_ = {};
     std::string text_;
     std::vector<std::byte> bytes_;
     std::string error_;
@@ -73,6 +74,20 @@ TEST_F(RepertoireCache, aDamagedFileIsCapturedAnew) {
     EXPECT_TRUE(fetch());
     EXPECT_EQ(bytes_, whole);
     EXPECT_FALSE(fetch());
+}
+
+TEST_F(RepertoireCache, whatCameWithTheProgramsIsNeitherCapturedNorCopied) {
+    EXPECT_TRUE(fetch());
+    const auto first = bytes_;
+    shipped_ = std::exchange(folder_, folder_ / "own");
+    EXPECT_FALSE(fetch());
+    EXPECT_EQ(bytes_, first);
+    EXPECT_FALSE(fs::exists(folder_));
+    fs::resize_file(fs::directory_iterator(shipped_)->path(), 1000);
+    EXPECT_TRUE(fetch()) << "it is damaged";
+    EXPECT_EQ(bytes_, first);
+    EXPECT_EQ(files().size(), 1U);
+    folder_ = shipped_;  // removed with all in it
 }
 
 TEST_F(RepertoireCache, aFolderThatCannotBeWrittenOnlyCostsTime) {

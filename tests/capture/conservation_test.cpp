@@ -17,13 +17,6 @@
 namespace aquarama::capture {
 namespace {
 
-glm::dvec3 momentumOf(const BiomechanicalFish& fish, const FishState& state) {
-    glm::dvec3 momentum{};
-    for (std::size_t i = 0; i < state.velocities.size(); ++i)
-        momentum += fish.masses.at(i) * state.velocities.at(i);
-    return momentum;
-}
-
 glm::dvec3 angularMomentumOf(const BiomechanicalFish& fish, const FishState& state) {
     glm::dvec3 momentum{};
     for (std::size_t i = 0; i < state.velocities.size(); ++i)

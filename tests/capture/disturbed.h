@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fish in conditions in which everything that can move does.
+// Fish in conditions in which everything that can move does, and their momentum.
 #pragma once
 
 #include <cmath>
@@ -25,6 +25,14 @@ inline FishState disturbed(const BiomechanicalFish& fish) {
         state.velocities.at(i) = 0.5 * glm::dvec3(std::cos(2 * k), std::cos(k), std::sin(4 * k));
     }
     return state;
+}
+
+// In masses of the fish times body lengths a second.
+inline glm::dvec3 momentumOf(const BiomechanicalFish& fish, const FishState& state) {
+    glm::dvec3 momentum{};
+    for (std::size_t i = 0; i < state.velocities.size(); ++i)
+        momentum += fish.masses.at(i) * state.velocities.at(i);
+    return momentum;
 }
 
 }  // namespace aquarama::capture

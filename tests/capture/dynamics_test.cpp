@@ -22,13 +22,6 @@
 namespace aquarama::capture {
 namespace {
 
-glm::dvec3 momentumOf(const BiomechanicalFish& fish, const FishState& state) {
-    glm::dvec3 momentum{};
-    for (std::size_t i = 0; i < state.velocities.size(); ++i)
-        momentum += fish.masses.at(i) * state.velocities.at(i);
-    return momentum;
-}
-
 void addBlock(DenseMatrix& matrix, int rowNode, int columnNode, const glm::dmat3& block) {
     for (int p = 0; p < 3; ++p)
         for (int q = 0; q < 3; ++q)

@@ -12,7 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "capture/capture_repertoire.h"
+#include "capture/repertoire_files.h"
 #include "common/config/text_file.h"
 #include "tests/support/scad.h"
 

@@ -15,7 +15,7 @@ namespace aquarama::capture {
 namespace {
 
 // As the species' fish is in the middle of a beat: the longest it goes before a test looks at it.
-constexpr double kRunUpBeats = 16;
+constexpr double kTailRunUpBeats = 16;
 
 double oneBeat(const config::Species& species) {
     return 1 / species.swim.medium.beatHertz;
@@ -28,7 +28,7 @@ TEST(ForwardSwim, goesStraightOnAndFasterFromGaitToGaitInEverySpecies) {
         for (const config::Gait& gait :
              {species.swim.slow, species.swim.medium, species.swim.fast}) {
             swimmer.give(forward(gait));
-            advanceSeconds(swimmer, kRunUpBeats / gait.beatHertz);
+            advanceSeconds(swimmer, kTailRunUpBeats / gait.beatHertz);
             const Course course = courseOver(swimmer, 1 / gait.beatHertz);
             EXPECT_GT(course.velocity.x, 1.1 * before) << species.name;
             EXPECT_NEAR(course.towardsRadians, 0, 8 * kDegree) << species.name;
@@ -74,7 +74,7 @@ double turnedBy(const config::Species& species,
 TEST(LeftTurn, turnsLeftAndSharperWithTheSharpBendInEverySpecies) {
     for (const config::Species& species : test::allSpecies()) {
         const auto turned = [&](const config::Bend& bend) {
-            return turnedBy(species, Controller::LeftTurn, bend, kRunUpBeats);
+            return turnedBy(species, Controller::LeftTurn, bend, kTailRunUpBeats);
         };
         const double gradual = turned(species.turn.gradual);
         EXPECT_GT(gradual, 10 * kDegree) << species.name;
@@ -85,8 +85,8 @@ TEST(LeftTurn, turnsLeftAndSharperWithTheSharpBendInEverySpecies) {
 TEST(RightTurn, isTheLeftTurnsMirrorImageHalfABeatLater) {
     for (const config::Species& species : test::allSpecies()) {
         const config::Bend& bend = species.turn.sharp;
-        const double left = turnedBy(species, Controller::LeftTurn, bend, kRunUpBeats);
-        const double right = turnedBy(species, Controller::RightTurn, bend, kRunUpBeats + 0.5);
+        const double left = turnedBy(species, Controller::LeftTurn, bend, kTailRunUpBeats);
+        const double right = turnedBy(species, Controller::RightTurn, bend, kTailRunUpBeats + 0.5);
         // The first beat of all goes left, so that the two paths lie a little askew.
         EXPECT_NEAR(right, -left, 1 * kDegree) << species.name;
         EXPECT_LT(right, -20 * kDegree) << species.name;
@@ -94,7 +94,7 @@ TEST(RightTurn, isTheLeftTurnsMirrorImageHalfABeatLater) {
 }
 
 TEST(Turns, endWithTheMusclesRelaxed) {
-    Swimmer swimmer = swimming(test::scad(), kRunUpBeats);
+    Swimmer swimmer = swimming(test::scad(), kTailRunUpBeats);
     swimmer.give({.controller = Controller::RightTurn, .bend = test::scad().turn.sharp});
     advanceSeconds(swimmer, secondsOf(test::scad().turn.sharp, test::scad()) + 2);
     const NodeVectors straight = inBodyFrame(makeBiomechanicalFish(test::scad()).restPositions);
@@ -105,7 +105,7 @@ TEST(Turns, endWithTheMusclesRelaxed) {
 
 TEST(Glide, slowsWithoutEndAndWithoutTurningBackInEverySpecies) {
     for (const config::Species& species : test::allSpecies()) {
-        Swimmer swimmer = swimming(species, kRunUpBeats);
+        Swimmer swimmer = swimming(species, kTailRunUpBeats);
         swimmer.give({.controller = Controller::Glide});
         double speed = courseOver(swimmer, oneBeat(species)).velocity.x;
         for (int i = 0; i < 8; ++i) {
@@ -119,7 +119,7 @@ TEST(Glide, slowsWithoutEndAndWithoutTurningBackInEverySpecies) {
 }
 
 TEST(Orders, neverMakeTheBodyJump) {
-    Swimmer swimmer = swimming(test::scad(), kRunUpBeats);
+    Swimmer swimmer = swimming(test::scad(), kTailRunUpBeats);
     const double swum = [&] {
         double most = 0;
         for (int i = 0; i < 240; ++i) {

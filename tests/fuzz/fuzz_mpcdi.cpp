@@ -12,7 +12,7 @@
 namespace aquarama {
 namespace {
 
-using Bytes = std::span<const std::byte>;
+using Content = std::span<const std::byte>;
 
 bool isSame(const std::optional<formats::ChannelColour>& a,
             const std::optional<formats::ChannelColour>& b) {
@@ -21,7 +21,7 @@ bool isSame(const std::optional<formats::ChannelColour>& a,
 }
 
 // What is read can be written in both versions, and read.
-void readAndWrite(Bytes bytes) {
+void readAndWrite(Content bytes) {
     formats::WallFile wall;
     try {
         wall = formats::readMpcdi(bytes, "fuzzed");
@@ -49,8 +49,8 @@ void readAndWrite(Bytes bytes) {
 
 // Damage within an archive is found by its checksums: so the files of one are damaged before they
 // are packed.
-void packAndRead(const std::string& manifest, Bytes floatMap) {
-    const Bytes text = std::as_bytes(std::span(manifest));
+void packAndRead(const std::string& manifest, Content floatMap) {
+    const Content text = std::as_bytes(std::span(manifest));
     readAndWrite(formats::encodeArchive({{"mpcdi.xml", {text.begin(), text.end()}},
                                          {"a.pfm", {floatMap.begin(), floatMap.end()}}}));
     readAndWrite(formats::encodeArchive({{"hall/mpcdi.xml", {text.begin(), text.end()}},
@@ -60,7 +60,7 @@ void packAndRead(const std::string& manifest, Bytes floatMap) {
 }  // namespace
 
 int fuzzMpcdi(const std::uint8_t* data, std::size_t size) {
-    const Bytes bytes = std::as_bytes(std::span(data, size));
+    const Content bytes = std::as_bytes(std::span(data, size));
     readAndWrite(bytes);
     if (formats::isArchive(bytes)) return 0;
     if (size > 2 && data[0] == 'P')

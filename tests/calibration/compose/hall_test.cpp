@@ -11,7 +11,7 @@
 namespace aquarama::compose {
 namespace {
 
-constexpr glm::ivec2 kSize(320, 180);
+constexpr glm::ivec2 kHallSize(320, 180);
 
 config::Rig desk() {
     return config::readRig(AQUARAMA_SOURCE_DIR "/config/desk.txtpb");
@@ -19,7 +19,7 @@ config::Rig desk() {
 
 TEST(Hall, aBlackWallLeavesTheHallBlack) {
     const config::Rig rig = desk();
-    const Light hall = composeHall(rig, darkness(rig.panoramaPixels), kSize);
+    const Light hall = composeHall(rig, darkness(rig.panoramaPixels), kHallSize);
     EXPECT_TRUE(
         std::ranges::all_of(hall.rgb, [](glm::vec3 light) { return light == glm::vec3(0); }));
 }
@@ -31,27 +31,27 @@ TEST(Hall, leftIsLeftAndTheWholeWallIsInView) {
         for (int x = 0; x < panorama.sizePixels.x; ++x)
             panorama.at(x, y) =
                 x < panorama.sizePixels.x / 2 ? glm::vec3(0.5F, 0, 0) : glm::vec3(0, 0.5F, 0);
-    const Light hall = composeHall(rig, panorama, kSize);
+    const Light hall = composeHall(rig, panorama, kHallSize);
     const auto isScreen = [&](int x, int y) {
         return std::max(hall.at(x, y).x, hall.at(x, y).y) == 0.5F;
     };
-    const int row = kSize.y / 3;
+    const int row = kHallSize.y / 3;
     EXPECT_FALSE(isScreen(0, row));
-    EXPECT_FALSE(isScreen(kSize.x - 1, row));
-    EXPECT_FALSE(isScreen(kSize.x / 2, 0));
-    EXPECT_FALSE(isScreen(kSize.x / 2, kSize.y - 1));
-    EXPECT_EQ(hall.at(kSize.x / 4, row), glm::vec3(0.5F, 0, 0));
-    EXPECT_EQ(hall.at(kSize.x * 3 / 4, row), glm::vec3(0, 0.5F, 0));
+    EXPECT_FALSE(isScreen(kHallSize.x - 1, row));
+    EXPECT_FALSE(isScreen(kHallSize.x / 2, 0));
+    EXPECT_FALSE(isScreen(kHallSize.x / 2, kHallSize.y - 1));
+    EXPECT_EQ(hall.at(kHallSize.x / 4, row), glm::vec3(0.5F, 0, 0));
+    EXPECT_EQ(hall.at(kHallSize.x * 3 / 4, row), glm::vec3(0, 0.5F, 0));
     int wide = 0;
-    for (int x = 0; x < kSize.x; ++x) wide += isScreen(x, row) ? 1 : 0;
-    EXPECT_GT(wide, kSize.x * 85 / 100);
+    for (int x = 0; x < kHallSize.x; ++x) wide += isScreen(x, row) ? 1 : 0;
+    EXPECT_GT(wide, kHallSize.x * 85 / 100);
 }
 
 TEST(Hall, theRoomGivesBackLessThanItGets) {
     const config::Rig rig = desk();
     Light panorama = darkness(rig.panoramaPixels);
     std::ranges::fill(panorama.rgb, glm::vec3(1));
-    for (const glm::vec3& light : composeHall(rig, panorama, kSize).rgb)
+    for (const glm::vec3& light : composeHall(rig, panorama, kHallSize).rgb)
         EXPECT_LE(light.x, 1.0001F);
 }
 

@@ -17,9 +17,9 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 constexpr const char* kBerlin = "Europe/Berlin";
-constexpr long long kHour = 3600, kDay = 86400;
+constexpr long long kHourSeconds = 3600, kDaySeconds = 86400;
 
-Hours hoursOf(const std::string& rest) {
+Hours berlinHours(const std::string& rest) {
     return parseHours(std::string("zone: \"") + kBerlin + "\"\n" + rest, "hours.txtpb");
 }
 
@@ -48,7 +48,7 @@ std::vector<std::string> changesAfter(const Hours& hours,
 }
 
 TEST(Calendar, aTimeOfTheHallIsAMomentAndBack) {
-    EXPECT_EQ(momentOf("UTC", "1970-01-02 00:01"), kDay + 60);
+    EXPECT_EQ(momentOf("UTC", "1970-01-02 00:01"), kDaySeconds + 60);
     EXPECT_EQ(momentOf(kBerlin, "2026-12-24 18:00"), momentOf("UTC", "2026-12-24 17:00"));
     EXPECT_EQ(momentOf(kBerlin, "2026-07-24 18:00"), momentOf("UTC", "2026-07-24 16:00"));
     EXPECT_EQ(momentOf("America/St_Johns", "2026-12-24 18:00"),
@@ -61,9 +61,9 @@ TEST(Calendar, aTimeOfTheHallIsAMomentAndBack) {
 TEST(Calendar, eachHourThatIsShownIsFoundAgain) {
     for (const std::string zone : {"Europe/Berlin", "Australia/Lord_Howe", "America/New_York"})
         for (long long at = momentOf("UTC", "2026-01-01 00:00"), i = 0; i < 365 * 24; ++i) {
-            const long long moment = at + i * kHour;
+            const long long moment = at + i * kHourSeconds;
             const long long found = momentOf(zone, clockText(zone, moment).substr(0, 16));
-            EXPECT_TRUE(found == moment || (found < moment && found >= moment - kHour &&
+            EXPECT_TRUE(found == moment || (found < moment && found >= moment - kHourSeconds &&
                                             clockText(zone, found).substr(0, 16) ==
                                                 clockText(zone, moment).substr(0, 16)))
                 << zone << " " << moment;
@@ -92,8 +92,8 @@ TEST(Calendar, whatIsNoTimeIsRefused) {
 }
 
 TEST(Calendar, changesOverSummerTimeAreAtTheTimesOfTheHall) {
-    const Hours hours =
-        hoursOf("open { days: [SATURDAY, SUNDAY] from: \"10:00\" to: \"18:00\" scene: \"reef\" }");
+    const Hours hours = berlinHours(
+        "open { days: [SATURDAY, SUNDAY] from: \"10:00\" to: \"18:00\" scene: \"reef\" }");
     EXPECT_THAT(changesAfter(hours, "2026-03-28 12:00", 3),
                 ElementsAre("2026-03-28 18:00 +01:00 Saturday: closed",
                             "2026-03-29 10:00 +02:00 Sunday: open, scene reef",
@@ -104,7 +104,7 @@ TEST(Calendar, changesOverSummerTimeAreAtTheTimesOfTheHall) {
 }
 
 TEST(Calendar, aChangeIsTheFirstMinuteAtWhichSomethingElseIsWanted) {
-    const Hours hours = hoursOf(
+    const Hours hours = berlinHours(
         "open { days: [MONDAY] from: \"10:00\" to: \"18:00\" scene: \"reef\" }"
         "open { days: [MONDAY] from: \"12:00\" to: \"13:00\" scene: \"reef\" quality: \"low\" }"
         "exceptions { date: \"2026-12-28\" }");
@@ -120,17 +120,17 @@ TEST(Calendar, aChangeIsTheFirstMinuteAtWhichSomethingElseIsWanted) {
     EXPECT_EQ(wantedAt(hours, change->at), change->wanted);
     EXPECT_NE(wantedAt(hours, change->at - 1), change->wanted);
     EXPECT_FALSE(changeAfter(hours, momentOf(kBerlin, "2026-12-22 00:00"), 5));
-    EXPECT_FALSE(changeAfter(hoursOf(""), 0, 30));
+    EXPECT_FALSE(changeAfter(berlinHours(""), 0, 30));
 }
 
 TEST(Calendar, eachSceneOfSpansAndExceptionsIsNamedOnce) {
-    EXPECT_THAT(
-        scenesOf(hoursOf("open { days: [MONDAY] from: \"10:00\" to: \"12:00\" scene: \"reef\" }"
-                         "open { days: [SUNDAY] from: \"10:00\" to: \"12:00\" scene: \"reef\" }"
-                         "open { days: [FRIDAY] from: \"10:00\" to: \"12:00\" }"
-                         "exceptions { date: \"2026-12-24\" open { from: \"10:00\" to: \"12:00\" "
-                         "scene: \"ball\" } }")),
-        ElementsAre("ball", "reef"));
+    EXPECT_THAT(scenesOf(berlinHours(
+                    "open { days: [MONDAY] from: \"10:00\" to: \"12:00\" scene: \"reef\" }"
+                    "open { days: [SUNDAY] from: \"10:00\" to: \"12:00\" scene: \"reef\" }"
+                    "open { days: [FRIDAY] from: \"10:00\" to: \"12:00\" }"
+                    "exceptions { date: \"2026-12-24\" open { from: \"10:00\" to: \"12:00\" "
+                    "scene: \"ball\" } }")),
+                ElementsAre("ball", "reef"));
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ const std::string kCamera =
     "camera { position { z_m: 1 } look_at { z_m: -3 } width_px: 640 height_px: 480 focal_px: 500 "
     "}\n";
 
-std::string refusalOf(const std::string& text) {
+std::string hallRefusalOf(const std::string& text) {
     try {
         static_cast<void>(parseHall(text, "hall.txtpb", kChannels));
     } catch (const Error& error) {
@@ -66,18 +66,20 @@ TEST(Hall, everythingIsRead) {
 }
 
 TEST(Hall, mistakesAreNamedAtTheirPlace) {
-    EXPECT_THAT(refusalOf("screen { bump_m: 0.01 }"), testing::HasSubstr("hall.txtpb:1:1"));
-    EXPECT_THAT(refusalOf(kCamera + "projectors { channel: 'top' }"),
+    EXPECT_THAT(hallRefusalOf("screen { bump_m: 0.01 }"), testing::HasSubstr("hall.txtpb:1:1"));
+    EXPECT_THAT(hallRefusalOf(kCamera + "projectors { channel: 'top' }"),
                 testing::AllOf(testing::HasSubstr("hall.txtpb:2:14"),
                                testing::HasSubstr("no channel \"top\"")));
-    EXPECT_THAT(refusalOf(kCamera + "projectors { channel: 'left' gamma: 2 }"),
+    EXPECT_THAT(hallRefusalOf(kCamera + "projectors { channel: 'left' gamma: 2 }"),
                 testing::HasSubstr("give 3 or none"));
-    EXPECT_THAT(refusalOf(kCamera + "projectors { channel: 'left' gamma: [2, 2, 7] }"),
+    EXPECT_THAT(hallRefusalOf(kCamera + "projectors { channel: 'left' gamma: [2, 2, 7] }"),
                 testing::HasSubstr("gamma has numbers from"));
-    EXPECT_THAT(refusalOf(kCamera + "faults { swapped: 'left' }"), testing::HasSubstr("name both"));
-    EXPECT_THAT(refusalOf(kCamera + "screen { bump_m: 3 }"), testing::HasSubstr("hall.txtpb:2:10"));
-    EXPECT_THAT(refusalOf("camera { position { z_m: 1 } look_at { z_m: 1 } width_px: 640 "
-                          "height_px: 480 focal_px: 500 }"),
+    EXPECT_THAT(hallRefusalOf(kCamera + "faults { swapped: 'left' }"),
+                testing::HasSubstr("name both"));
+    EXPECT_THAT(hallRefusalOf(kCamera + "screen { bump_m: 3 }"),
+                testing::HasSubstr("hall.txtpb:2:10"));
+    EXPECT_THAT(hallRefusalOf("camera { position { z_m: 1 } look_at { z_m: 1 } width_px: 640 "
+                              "height_px: 480 focal_px: 500 }"),
                 testing::HasSubstr("looks at its own place"));
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::vector<std::string> kChannels{"left", "right"};
+const std::vector<std::string> kScanned{"left", "right"};
 
 Scan someScan() {
     Scan scan{.rig = "desk",
@@ -44,7 +44,7 @@ Scan someScan() {
 
 TEST(Scan, saysTheSameAfterWritingAndReading) {
     const Scan scan = someScan();
-    const Scan again = parseScan(textOf(scan, kChannels), "scan.txtpb", kChannels);
+    const Scan again = parseScan(textOf(scan, kScanned), "scan.txtpb", kScanned);
     EXPECT_EQ(again.rig, scan.rig);
     ASSERT_EQ(again.cameras.size(), 2U);
     EXPECT_EQ(again.cameras[0].response, ScanCamera::Response::Linear);
@@ -60,18 +60,18 @@ TEST(Scan, saysTheSameAfterWritingAndReading) {
     }
 }
 
-struct Mistake {
+struct ScanMistake {
     std::string from, to, message;
 };
-class ScanMistakes : public testing::TestWithParam<Mistake> {};
+class ScanMistakes : public testing::TestWithParam<ScanMistake> {};
 
 TEST_P(ScanMistakes, areRefusedAtTheirPlace) {
-    std::string text = textOf(someScan(), kChannels);
+    std::string text = textOf(someScan(), kScanned);
     const auto at = text.find(GetParam().from);
     ASSERT_NE(at, std::string::npos);
     text.replace(at, GetParam().from.size(), GetParam().to);
     try {
-        (void)parseScan(text, "scan.txtpb", kChannels);
+        (void)parseScan(text, "scan.txtpb", kScanned);
         FAIL() << "was read";
     } catch (const Error& error) {
         EXPECT_THAT(error.what(), HasSubstr("scan.txtpb:"));
@@ -82,13 +82,13 @@ TEST_P(ScanMistakes, areRefusedAtTheirPlace) {
 INSTANTIATE_TEST_SUITE_P(
     Each,
     ScanMistakes,
-    testing::Values(Mistake{"\"right\"", "\"middle\"", "no channel \"middle\""},
-                    Mistake{"picture.png", "../picture.png", "not the name of a file"},
-                    Mistake{"picture.png", "a/b.png", "not the name of a file"},
-                    Mistake{"camera: 1", "camera: 2", "there are 2 cameras"},
-                    Mistake{"light: 0.5", "", "light has three values"},
-                    Mistake{"light: 0.5", "light: 1.5", "light is from 0 to 1"},
-                    Mistake{"version: 1", "version: 2", "version"}));
+    testing::Values(ScanMistake{"\"right\"", "\"middle\"", "no channel \"middle\""},
+                    ScanMistake{"picture.png", "../picture.png", "not the name of a file"},
+                    ScanMistake{"picture.png", "a/b.png", "not the name of a file"},
+                    ScanMistake{"camera: 1", "camera: 2", "there are 2 cameras"},
+                    ScanMistake{"light: 0.5", "", "light has three values"},
+                    ScanMistake{"light: 0.5", "light: 1.5", "light is from 0 to 1"},
+                    ScanMistake{"version: 1", "version: 2", "version"}));
 
 }  // namespace
 }  // namespace aquarama::config

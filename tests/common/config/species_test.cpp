@@ -89,14 +89,14 @@ TEST(Species, aVersionThatIsNoWholeNumberIsRefusedAsSuch) {
                 HasSubstr("write a whole number"));
 }
 
-struct Mistake {
+struct WrongSpecies {
     const char* name;
     const char* right;  // as the scad's file has it
     const char* wrong;
     const char* says;
 };
 
-class SpeciesMistake : public testing::TestWithParam<Mistake> {};
+class SpeciesMistake : public testing::TestWithParam<WrongSpecies> {};
 
 TEST_P(SpeciesMistake, isRefusedAtItsPlaceWithWhatToDo) {
     const std::string refusal = refusalOf(edited(GetParam().right, GetParam().wrong));
@@ -110,81 +110,87 @@ INSTANTIATE_TEST_SUITE_P(
     Each,
     SpeciesMistake,
     testing::Values(
-        Mistake{
+        WrongSpecies{
             "aMissingField", "tail_tip_mass: 0.165", "", "skeleton lacks tail_tip_mass: add it"},
-        Mistake{"anUnknownField", "eye {", "wings: 2 eye {", "wings"},
-        Mistake{"aNegativeMass", "node_mass: 11", "node_mass: -11", "node_mass is -11: it must be"},
-        Mistake{
+        WrongSpecies{"anUnknownField", "eye {", "wings: 2 eye {", "wings"},
+        WrongSpecies{
+            "aNegativeMass", "node_mass: 11", "node_mass: -11", "node_mass is -11: it must be"},
+        WrongSpecies{
             "noMass", "nose_mass: 1.1", "nose_mass: 0", "nose_mass is 0: it must be from 0.001"},
-        Mistake{"anInfiniteMass", "node_mass: 11", "node_mass: inf", "node_mass is inf"},
-        Mistake{"noNumber", "drag: 452", "drag: nan", "drag is nan: it must be from 0"},
-        Mistake{"aBeatThatNoFishHas", "beat_hz: 3", "beat_hz: 300", "beat_hz is 300: it must be"},
-        Mistake{"ringsOutOfOrder", "rings { s: 0.580", "rings { s: 0.380", "move this one back"},
-        Mistake{
+        WrongSpecies{"anInfiniteMass", "node_mass: 11", "node_mass: inf", "node_mass is inf"},
+        WrongSpecies{"noNumber", "drag: 452", "drag: nan", "drag is nan: it must be from 0"},
+        WrongSpecies{
+            "aBeatThatNoFishHas", "beat_hz: 3", "beat_hz: 300", "beat_hz is 300: it must be"},
+        WrongSpecies{
+            "ringsOutOfOrder", "rings { s: 0.580", "rings { s: 0.380", "move this one back"},
+        WrongSpecies{
             "aFlatRing", "half_height: 0.093", "half_height: 0", "half_height is 0: it must be"},
-        Mistake{"aThinRing", "half_width: 0.051", "half_width: 0", "half_width is 0: it must be"},
-        Mistake{"fourRings",
-                "rings { s: 0.850 half_height: 0.040 half_width: 0.010 node_mass: 1.1 }",
-                "",
-                "skeleton has 4 rings: give 5"},
-        Mistake{
+        WrongSpecies{
+            "aThinRing", "half_width: 0.051", "half_width: 0", "half_width is 0: it must be"},
+        WrongSpecies{"fourRings",
+                     "rings { s: 0.850 half_height: 0.040 half_width: 0.010 node_mass: 1.1 }",
+                     "",
+                     "skeleton has 4 rings: give 5"},
+        WrongSpecies{
             "aBodyWithoutHeight", "s: 0.380 up: 0.113", "s: 0.380 up: 0", "up is 0: it must be"},
-        Mistake{"aSectionWithCorners", "full_up: 2.1", "full_up: 9", "full_up is 9: it must be"},
-        Mistake{"aFinThatTurnsOver",
-                "stroke_deg: 55",
-                "stroke_deg: 180",
-                "stroke_deg is 180: it must be"},
-        Mistake{"aFinThatOpensOntoItsHead",
-                "open_deg: 90",
-                "open_deg: 130",
-                "open_deg is 130: it must be"},
-        Mistake{"aRippleWithoutWaves", "waves: 1.5", "", "hovering lacks waves: add it"},
-        Mistake{"aThreadOfOnePoint",
-                "eye {",
-                "threads { at { s: 0.5 y: 0 } root_width: 0.01 } eye {",
-                "threads has 1 at: give 2 to 32"},
-        Mistake{"anEyeOnAStalk", "bulge: 0.2", "bulge: 3", "bulge is 3: it must be"},
-        Mistake{"profileOutOfOrder", "profile { s: 0.10", "profile { s: 0.01", "sort them"},
-        Mistake{"profileThatStartsLate",
-                "profile { s: 0.00",
-                "profile { s: 0.01",
-                "must begin at s: 0"},
-        Mistake{"dorsalFinsThatOverlap",
-                "base { s: 0.465 y: 0.105 }",
-                "base { s: 0.440 y: 0.105 }",
-                "second_dorsal begins before first_dorsal ends: move it back"},
-        Mistake{"aDorsalFinOnTheNose",
-                "base { s: 0.325 y: 0.106 }",
-                "base { s: 0.02 y: 0.02 }",
-                "first_dorsal begins on the head"},
-        Mistake{"aDorsalFinOnTheTail",
-                "base { s: 0.765 y: 0.027 }",
-                "base { s: 0.865 y: 0.027 }",
-                "second_dorsal ends behind the last profile station: shorten it"},
-        Mistake{"anAnalFinOnTheBreast",
-                kAnalFront,
-                "base { s: 0.3 y: -0.1 }",
-                "anal begins before pelvic ends: move it back"},
-        Mistake{"aFinThatRunsHeadwards",
-                "base { s: 0.360 y: 0.108 }",
-                "base { s: 0.320 y: 0.108 }",
-                "must run from head to tail: sort it"},
-        Mistake{
+        WrongSpecies{
+            "aSectionWithCorners", "full_up: 2.1", "full_up: 9", "full_up is 9: it must be"},
+        WrongSpecies{"aFinThatTurnsOver",
+                     "stroke_deg: 55",
+                     "stroke_deg: 180",
+                     "stroke_deg is 180: it must be"},
+        WrongSpecies{"aFinThatOpensOntoItsHead",
+                     "open_deg: 90",
+                     "open_deg: 130",
+                     "open_deg is 130: it must be"},
+        WrongSpecies{"aRippleWithoutWaves", "waves: 1.5", "", "hovering lacks waves: add it"},
+        WrongSpecies{"aThreadOfOnePoint",
+                     "eye {",
+                     "threads { at { s: 0.5 y: 0 } root_width: 0.01 } eye {",
+                     "threads has 1 at: give 2 to 32"},
+        WrongSpecies{"anEyeOnAStalk", "bulge: 0.2", "bulge: 3", "bulge is 3: it must be"},
+        WrongSpecies{"profileOutOfOrder", "profile { s: 0.10", "profile { s: 0.01", "sort them"},
+        WrongSpecies{"profileThatStartsLate",
+                     "profile { s: 0.00",
+                     "profile { s: 0.01",
+                     "must begin at s: 0"},
+        WrongSpecies{"dorsalFinsThatOverlap",
+                     "base { s: 0.465 y: 0.105 }",
+                     "base { s: 0.440 y: 0.105 }",
+                     "second_dorsal begins before first_dorsal ends: move it back"},
+        WrongSpecies{"aDorsalFinOnTheNose",
+                     "base { s: 0.325 y: 0.106 }",
+                     "base { s: 0.02 y: 0.02 }",
+                     "first_dorsal begins on the head"},
+        WrongSpecies{"aDorsalFinOnTheTail",
+                     "base { s: 0.765 y: 0.027 }",
+                     "base { s: 0.865 y: 0.027 }",
+                     "second_dorsal ends behind the last profile station: shorten it"},
+        WrongSpecies{"anAnalFinOnTheBreast",
+                     kAnalFront,
+                     "base { s: 0.3 y: -0.1 }",
+                     "anal begins before pelvic ends: move it back"},
+        WrongSpecies{"aFinThatRunsHeadwards",
+                     "base { s: 0.360 y: 0.108 }",
+                     "base { s: 0.320 y: 0.108 }",
+                     "must run from head to tail: sort it"},
+        WrongSpecies{
             "aFinOfOnePoint",
             "edge { s: 0.385 y: -0.160 } edge { s: 0.397 y: -0.150 } edge { s: 0.395 y: -0.132 }",
             "edge { s: 0.385 y: -0.160 }",
             "has 1 edge: give 2 to 32"},
-        Mistake{"aPectoralFinOnTheNose",
-                "base { s: 0.268 y: 0.000 }",
-                "base { s: 0.01 y: 0.000 }",
-                "base of pectoral must lie behind the head"},
-        Mistake{"aPectoralFinWithoutABase",
-                "base { s: 0.268 y: 0.000 }",
-                "base { s: 0.268 y: -0.036 }",
-                "ends where it begins: spread it"},
-        Mistake{"sizesExchanged", "least_m: 0.20", "least_m: 0.25", "least_m is more than mean_m"},
-        Mistake{"aColourBeyondWhite", "blue: 0.79", "blue: 1.79", "blue is 1.79: it must be"},
-        Mistake{"aNameThatIsNoFileName", "\"bigeye_scad\"", "\"../scad\"", "rename it"}),
+        WrongSpecies{"aPectoralFinOnTheNose",
+                     "base { s: 0.268 y: 0.000 }",
+                     "base { s: 0.01 y: 0.000 }",
+                     "base of pectoral must lie behind the head"},
+        WrongSpecies{"aPectoralFinWithoutABase",
+                     "base { s: 0.268 y: 0.000 }",
+                     "base { s: 0.268 y: -0.036 }",
+                     "ends where it begins: spread it"},
+        WrongSpecies{
+            "sizesExchanged", "least_m: 0.20", "least_m: 0.25", "least_m is more than mean_m"},
+        WrongSpecies{"aColourBeyondWhite", "blue: 0.79", "blue: 1.79", "blue is 1.79: it must be"},
+        WrongSpecies{"aNameThatIsNoFileName", "\"bigeye_scad\"", "\"../scad\"", "rename it"}),
     [](const auto& mistake) { return std::string(mistake.param.name); });
 
 TEST(Species, howFinsMoveIsReadInRadiansAndRowingChangesTheCapture) {

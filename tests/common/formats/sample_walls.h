@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ namespace aquarama::test {
 
 inline constexpr float kUnlit = std::numeric_limits<float>::quiet_NaN();
 
-[[nodiscard]] inline std::vector<std::byte> bytesOf(const std::string& text) {
+[[nodiscard]] inline std::vector<std::byte> bytesOf(std::string_view text) {
     const auto bytes = std::as_bytes(std::span(text));
     return {bytes.begin(), bytes.end()};
 }

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/common/formats/sample_walls.h"
+
 namespace aquarama::formats {
 
 using SampleBytes = std::vector<std::byte>;
@@ -36,9 +38,7 @@ class SampleWriter {
     SampleBytes bytes;
 };
 
-inline SampleBytes bytesOf(std::string_view text) {
-    return SampleWriter().text(text).bytes;
-}
+using test::bytesOf;
 
 // Seen from (1, 2, 3), turned 90 degrees to the left; 2 by 2 vertices at the corners, which show
 // the inner half of the picture of the frustum.

@@ -18,7 +18,7 @@ TEST(Metrics, eachKindIsWrittenInPrometheusText) {
     late(5);
     late(3);  // a total never falls
     const Record skew = metrics.histogram("skew_seconds", "Skew");
-    for (const double seconds : {0.0003, 0.0004, 0.015, 7.0}) skew(seconds);
+    for (const double apart : {0.0003, 0.0004, 0.015, 7.0}) skew(apart);
     const std::string text = metrics.text();
     for (const char* line : {"# HELP fish Fish of the world\n",
                              "# TYPE fish gauge\n",

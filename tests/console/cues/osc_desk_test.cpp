@@ -26,8 +26,8 @@ using test::Port;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using Reply = v1::OrderReply;
-using Outcome = Reply::Outcome;
+using OscReply = v1::OrderReply;
+using Outcome = OscReply::Outcome;
 
 std::vector<OscMessage> heardAt(Port& port) {
     std::vector<OscMessage> all;
@@ -53,11 +53,11 @@ class Theatre : public testing::Test {
         at = own;
     }
     // As Console::giveOrder(), with the outcome that is set.
-    Reply carryOut(const std::string& who, const v1::Order& order) {
-        Reply reply;
+    OscReply carryOut(const std::string& who, const v1::Order& order) {
+        OscReply reply;
         reply.set_request(order.request() != 0 ? order.request() : ++number);
         reply.set_outcome(outcome);
-        if (outcome == Reply::REFUSED) reply.set_reason("a scan holds the wall");
+        if (outcome == OscReply::REFUSED) reply.set_reason("a scan holds the wall");
         said.push_back(who + ": " + wire::textOf(order.show()));
         return reply;
     }
@@ -75,7 +75,7 @@ class Theatre : public testing::Test {
 
     v1::StatusReply status;
     bool isHeard = true;
-    Outcome outcome = Reply::DONE;
+    Outcome outcome = OscReply::DONE;
     std::uint64_t number = 0;
     std::vector<std::string> said;
 };
@@ -117,14 +117,14 @@ TEST_F(Theatre, ofAFaderTheLastStepOfATickCounts) {
 }
 
 TEST_F(Theatre, anOrderIsFollowedToItsEnd) {
-    outcome = Reply::WAITING;
+    outcome = OscReply::WAITING;
     send(sender, test::oscMessage("/aquarama/scene", "s", test::oscText("lagoon")));
     tick();
     tick();
     EXPECT_EQ(number, 1U) << "one order, asked for twice";
     EXPECT_EQ(said.size(), 2U);
     EXPECT_THAT(heardAt(sender), IsEmpty());
-    outcome = Reply::REFUSED;
+    outcome = OscReply::REFUSED;
     tick();
     EXPECT_THAT(heardAt(sender), ElementsAre(refusal("/aquarama/scene", "a scan holds the wall")));
     tick();
@@ -132,7 +132,7 @@ TEST_F(Theatre, anOrderIsFollowedToItsEnd) {
 }
 
 TEST_F(Theatre, aFloodCostsNoMoreThanItsBounds) {
-    outcome = Reply::WAITING;
+    outcome = OscReply::WAITING;
     for (int i = 0; i < 200; ++i) send(sender, "no packet");
     tick();
     EXPECT_LE(heardAt(sender).size(), 16U);

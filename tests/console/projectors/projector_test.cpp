@@ -19,9 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMinute = 60, kHour = 3600, kDay = 86400;
-constexpr UnixSeconds kThursday = 1767225600;                // 2026-01-01 00:00 UTC
-constexpr double kOpens = 10 * kHour, kCloses = 18 * kHour;  // of each of the two days
+constexpr double kMinute = 60, kProjectorHour = 3600, kProjectorDay = 86400;
+constexpr UnixSeconds kThursday = 1767225600;  // 2026-01-01 00:00 UTC
+constexpr double kOpens = 10 * kProjectorHour,
+                 kCloses = 18 * kProjectorHour;  // of each of the two days
 const std::string kHoursText =
     "zone: \"UTC\" open { days: [THURSDAY, FRIDAY] from: \"10:00\" to: \"18:00\" }\n"
     "projectors { name: \"odd\" address: \"192.168.7.21\" input: \"31\" }\n"
@@ -190,13 +191,13 @@ TwoDays run(const Habit& habit) {
         opening.setText(kHoursText);
         constexpr double kTick = 10;
         int heardBefore = 0;
-        for (double now = kTick; now < 2 * kDay; now += kTick) {
+        for (double now = kTick; now < 2 * kProjectorDay; now += kTick) {
             if (const auto due = opening.due(kThursday + now)) opening.done(*due, kThursday + now);
             opening.switchProjectors(kThursday + now, true);
             for (Quickened* one : hall) one->advance(now);
             days.plainTicks += plain.stateAt(now);
-            if (now == 14 * kHour) days.facts = hall[0]->facts();
-            if (std::fmod(now, kHour) == 0)
+            if (now == 14 * kProjectorHour) days.facts = hall[0]->facts();
+            if (std::fmod(now, kProjectorHour) == 0)
                 days.mostHeardInAnHour = std::max(
                     days.mostHeardInAnHour, odd.heard() - std::exchange(heardBefore, odd.heard()));
             if (std::fmod(now, kMinute) != 0) continue;
@@ -227,7 +228,8 @@ void expectHours(const std::string& minutes, const Habit& habit) {
         return habit.name + " in minute " + std::to_string(i + 1) + " of " + changesIn(minutes);
     };
     for (std::size_t i = 0; i < minutes.size(); ++i) {
-        const double now = (static_cast<double>(i) + 1) * kMinute, ofDay = std::fmod(now, kDay);
+        const double now = (static_cast<double>(i) + 1) * kMinute,
+                     ofDay = std::fmod(now, kProjectorDay);
         const bool isExcused = now >= habit.excusedFrom && now < habit.excusedTo;
         const bool isLit = minutes[i] == 'o';
         if (ofDay >= kOpens + habit.lightWithin && ofDay < kCloses && !isExcused) {
@@ -327,23 +329,23 @@ std::vector<Habit> habits() {
         {.name = "is gone", .end = PjlinkEnd::Unreachable, .isNeverLit = true},
         {.name = "has another password", .end = PjlinkEnd::Refused, .isNeverLit = true},
         {.name = "has no current for ten minutes",
-         .goneFrom = 14 * kHour + 30,
-         .goneTo = 14 * kHour + 630,
-         .excusedFrom = 14 * kHour,
-         .excusedTo = 14 * kHour + 12 * kMinute},
+         .goneFrom = 14 * kProjectorHour + 30,
+         .goneTo = 14 * kProjectorHour + 630,
+         .excusedFrom = 14 * kProjectorHour,
+         .excusedTo = 14 * kProjectorHour + 12 * kMinute},
         {.name = "has no current at the opening",
-         .goneFrom = 9.5 * kHour,
-         .goneTo = 10 * kHour + 600,
-         .excusedFrom = 9.5 * kHour,
-         .excusedTo = 10 * kHour + 12 * kMinute},
+         .goneFrom = 9.5 * kProjectorHour,
+         .goneTo = 10 * kProjectorHour + 600,
+         .excusedFrom = 9.5 * kProjectorHour,
+         .excusedTo = 10 * kProjectorHour + 12 * kMinute},
         {.name = "has an input that it does not tell", .always = {{"INPT ?", "ERR1"}}},
         {.name = "falls into standby by itself at three",
          .byHand =
              [done = false](double now, char& power, bool&) mutable {
-                 if (now > 15 * kHour - 20 && !std::exchange(done, true)) power = '0';
+                 if (now > 15 * kProjectorHour - 20 && !std::exchange(done, true)) power = '0';
              },
-         .excusedFrom = 15 * kHour - 30,
-         .excusedTo = 15 * kHour + 2 * kMinute},
+         .excusedFrom = 15 * kProjectorHour - 30,
+         .excusedTo = 15 * kProjectorHour + 2 * kMinute},
     };
     for (Habit& habit : errorsOnEachQuery()) all.push_back(std::move(habit));
     return all;
@@ -375,7 +377,7 @@ TEST(Projectors, eachHabitIsLitInOpenedMinutesAndInNoOther) {
     for (const auto& [habit, days] : allDays()) {
         expectHours(days.odd, habit);
         for (std::size_t i = 0; i < days.odd.size(); ++i) {
-            const double ofDay = std::fmod((static_cast<double>(i) + 1) * kMinute, kDay);
+            const double ofDay = std::fmod((static_cast<double>(i) + 1) * kMinute, kProjectorDay);
             if (days.odd[i] == 'o' && ofDay >= kOpens + 8 * kMinute && ofDay < kCloses) {
                 ASSERT_EQ(days.inputs[i], "31") << habit.name << " in minute " << i + 1;
             }

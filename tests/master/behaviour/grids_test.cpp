@@ -13,17 +13,17 @@
 namespace aquarama::behaviour {
 namespace {
 
-const place::Region kWater{{1, -6, -5}, {9, 3, 7}};
+const place::Region kGridWater{{1, -6, -5}, {9, 3, 7}};
 constexpr std::size_t kFish = 20000;
 
-struct Sea {
-    fish::FishView view = scatteredSchool(2, kFish, kWater);
-    surroundings::Food food =
-        surroundings::makeFood(3, place::obstaclesOf({3, config::PlaceKind::OpenSea}, kWater), 700);
+struct GridSea {
+    fish::FishView view = scatteredSchool(2, kFish, kGridWater);
+    surroundings::Food food = surroundings::makeFood(
+        3, place::obstaclesOf({3, config::PlaceKind::OpenSea}, kGridWater), 700);
     std::vector<fish::SpeciesParameters> speciesParameters =
         std::vector<fish::SpeciesParameters>(2);
 
-    Sea() {
+    GridSea() {
         speciesParameters[1].habits.role = config::Role::Predator;
         for (std::size_t fish = 0; fish < kFish; ++fish) {
             if (fish % 5 == 0) view.signs[fish] = fish::kAway;
@@ -60,12 +60,12 @@ std::vector<std::uint32_t> startsOf(const SpatialGrid& grid) {
 }
 
 TEST(Grids, areTheSameOnAnyNumberOfThreads) {
-    const Sea sea;
-    Grids alone(kWater, kFish, sea.food.size());
+    const GridSea sea;
+    Grids alone(kGridWater, kFish, sea.food.size());
     alone.rebuild(sea.view, sea.food, sea.speciesParameters);
     for (const std::size_t threads : {1U, 2U, 4U}) {
         SCOPED_TRACE(threads);
-        Grids shared(kWater, kFish, sea.food.size());
+        Grids shared(kGridWater, kFish, sea.food.size());
         for (int tick = 0; tick < 3; ++tick)  // what was there before does not matter
             shared.rebuild(
                 sea.view, sea.food, sea.speciesParameters, onThreads(threads), [](auto, auto) {});
@@ -80,8 +80,8 @@ TEST(Grids, areTheSameOnAnyNumberOfThreads) {
 }
 
 TEST(Grids, everyFishStandsInItsCellInTheOrderOfIndices) {
-    const Sea sea;
-    Grids grids(kWater, kFish, sea.food.size());
+    const GridSea sea;
+    Grids grids(kGridWater, kFish, sea.food.size());
     grids.rebuild(sea.view, sea.food, sea.speciesParameters);
     const SpatialGrid& fish = grids.fish;
     EXPECT_EQ(fish.size(), kFish * 4 / 5);
@@ -100,8 +100,8 @@ TEST(Grids, everyFishStandsInItsCellInTheOrderOfIndices) {
 }
 
 TEST(Grids, theSparseOnesHoldThoseTheyAreOf) {
-    const Sea sea;
-    Grids grids(kWater, kFish, sea.food.size());
+    const GridSea sea;
+    Grids grids(kGridWater, kFish, sea.food.size());
     grids.expect(sea.view, sea.speciesParameters);
     grids.rebuild(sea.view, sea.food, sea.speciesParameters);
     const auto expectHolds = [&](const SpatialGrid& grid, const auto& isOne) {
@@ -123,7 +123,7 @@ TEST(Grids, theSparseOnesHoldThoseTheyAreOf) {
 TEST(Grids, aLargeOpenSeaTakesNoMoreMemoryThanItsFishWarrant) {
     const place::Region sea{{0, -10, 0}, {500, 10, 500}};
     EXPECT_LT(Grids(sea, 1000, 0).bytes(), 400'000U);
-    EXPECT_FLOAT_EQ(Grids(kWater, kFish, 0).fish.cellMetres(), kCellMetres)
+    EXPECT_FLOAT_EQ(Grids(kGridWater, kFish, 0).fish.cellMetres(), kCellMetres)
         << "where there are fish enough";
 }
 

@@ -12,7 +12,7 @@
 namespace aquarama::behaviour {
 namespace {
 
-const place::Region kWater{{0, -5.5F, -5.5F}, {11, 2.7F, 8}};
+const place::Region kKnownWater{{0, -5.5F, -5.5F}, {11, 2.7F, 8}};
 
 glm::vec3 drawn(std::uint32_t hash, float reach) {
     return glm::vec3{
@@ -21,12 +21,13 @@ glm::vec3 drawn(std::uint32_t hash, float reach) {
 }
 
 TEST(Chart, HidesAndRisesAsAllRocksDo) {
-    const place::Obstacles charted = place::obstaclesOf({.seed = 3}, kWater);
+    const place::Obstacles charted = place::obstaclesOf({.seed = 3}, kKnownWater);
     place::Obstacles plain = charted;
     plain.chart = {};
     std::size_t hidden = 0;
     for (std::uint32_t i = 0; i < 20'000; ++i) {
-        const glm::vec3 from = kWater.centre + drawn(hashOf(i, 0), 1) * kWater.halfExtent * 1.1F;
+        const glm::vec3 from =
+            kKnownWater.centre + drawn(hashOf(i, 0), 1) * kKnownWater.halfExtent * 1.1F;
         // Above the sand, which a chart knows to some millimetres alone.
         glm::vec3 to = from + drawn(hashOf(i, 1), 12);
         to.y = std::max(to.y, -8.0F);
@@ -62,12 +63,13 @@ std::pair<std::uint32_t, std::size_t> nearestOf(const PlacesKnown& known,
 TEST(PlacesKnown, FindTheNearestOfAll) {
     std::vector<glm::vec3> places;
     for (std::uint32_t i = 0; i < 4000; ++i)
-        places.push_back(kWater.centre + drawn(hashOf(i, 7), 1.2F) * kWater.halfExtent);
+        places.push_back(kKnownWater.centre + drawn(hashOf(i, 7), 1.2F) * kKnownWater.halfExtent);
     PlacesKnown known;
-    known.take(kWater, places.size(), [&](std::uint32_t i) { return places[i]; });
+    known.take(kKnownWater, places.size(), [&](std::uint32_t i) { return places[i]; });
     std::size_t visited = 0;
     for (std::uint32_t i = 0; i < 500; ++i) {
-        const glm::vec3 from = kWater.centre + drawn(hashOf(i, 8), 1.5F) * kWater.halfExtent;
+        const glm::vec3 from =
+            kKnownWater.centre + drawn(hashOf(i, 8), 1.5F) * kKnownWater.halfExtent;
         const auto [nearest, count] = nearestOf(known, places, from);
         EXPECT_EQ(nearest, nearestOf(PlacesKnown{}, places, from).first);
         visited += count;

@@ -15,7 +15,7 @@
 namespace aquarama::behaviour {
 namespace {
 
-const place::Region kWater{{1, -6, -5}, {4, 3, 5}};
+const place::Region kPointsWater{{1, -6, -5}, {4, 3, 5}};
 using Found = std::vector<std::tuple<std::uint32_t, std::uint32_t>>;  // who, how far to the bit
 
 Found byPlainCode(const SpatialGrid& grid, glm::vec3 place, float reachSquared) {
@@ -41,8 +41,8 @@ Found byVectors(const SpatialGrid& grid, glm::vec3 place, float reachSquared) {
 
 // From within the water, at its border and out of it; from nobody to more than are taken at once.
 TEST(PointsWithin, areThoseOfPlainCodeToTheBit) {
-    const fish::FishView view = scatteredSchool(4, 3000, kWater);
-    Grids grids(kWater, view.size(), 0);
+    const fish::FishView view = scatteredSchool(4, 3000, kPointsWater);
+    Grids grids(kPointsWater, view.size(), 0);
     const std::vector<fish::SpeciesParameters> speciesParameters(1);
     grids.rebuild(view, {}, speciesParameters);
     std::size_t most = 0;
@@ -52,8 +52,8 @@ TEST(PointsWithin, areThoseOfPlainCodeToTheBit) {
         hwy::GetChosenTarget().Update(hwy::SupportedTargets());
         for (const float reach : {0.0F, 0.1F, 0.7F, 2.5F, 20.0F})
             for (const glm::vec3 place : {view.position(7),
-                                          kWater.centre + kWater.halfExtent,
-                                          kWater.centre - 1.2F * kWater.halfExtent}) {
+                                          kPointsWater.centre + kPointsWater.halfExtent,
+                                          kPointsWater.centre - 1.2F * kPointsWater.halfExtent}) {
                 const Found found = byVectors(grids.fish, place, reach * reach);
                 EXPECT_EQ(found, byPlainCode(grids.fish, place, reach * reach)) << reach;
                 most = std::max(most, found.size());

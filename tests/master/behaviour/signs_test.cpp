@@ -8,13 +8,16 @@
 namespace aquarama::behaviour {
 namespace {
 
-struct Shown {
+struct ShownSign {
     std::uint8_t signs = 0;
     std::uint32_t partner = fish::kNobody;
     [[nodiscard]] bool shows(fish::MoodSign sign) const { return (signs & sign) != 0; }
 };
 
-Shown shown(config::Role role, const fish::Mind& mind, std::uint8_t before = 0, bool mates = true) {
+ShownSign shown(config::Role role,
+                const fish::Mind& mind,
+                std::uint8_t before = 0,
+                bool mates = true) {
     fish::SpeciesParameters parameters;
     parameters.habits.role = role;
     parameters.habits.libidoPerSecond = 0.003F;
@@ -64,7 +67,7 @@ TEST(Signs, aPredatorShowsThatItHunts) {
 }
 
 TEST(Signs, whoCourtsShowsWhom) {
-    const Shown courting = shown(config::Role::Pacifist, about(fish::Intention::Mate, 9));
+    const ShownSign courting = shown(config::Role::Pacifist, about(fish::Intention::Mate, 9));
     EXPECT_EQ(courting.partner, 9U);
     EXPECT_TRUE(courting.shows(fish::kWilling));
     EXPECT_EQ(shown(config::Role::Pacifist, interrupted(about(fish::Intention::Mate, 9))).partner,

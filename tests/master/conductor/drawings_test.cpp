@@ -23,7 +23,7 @@ namespace aquarama::conductor {
 namespace {
 
 using Status = v1::DrawingStatus;
-using Verdict = v1::Moderation;
+using Judgement = v1::Moderation;
 using std::chrono::seconds;
 using testing::HasSubstr;
 
@@ -67,7 +67,7 @@ struct Hall {
         return number;
     }
     ask::Answer decide(std::uint32_t number,
-                       Verdict::Verdict verdict,
+                       Judgement::Verdict verdict,
                        std::optional<int> aside = {}) {
         v1::Moderation moderation;
         moderation.set_number(number);
@@ -142,7 +142,7 @@ TEST(Drawings, waitForTheCrewAndSwimOnceNodesHaveHadTimeForTheirSkins) {
     hall.pass(10);
     EXPECT_EQ(hall.conditions(), "1 WAITING; ");
     EXPECT_FALSE(hall.drawings.skins());
-    EXPECT_EQ(hall.decide(1, Verdict::LET_IN).outcome, ask::Outcome::Done);
+    EXPECT_EQ(hall.decide(1, Judgement::LET_IN).outcome, ask::Outcome::Done);
     hall.pass(1);
     ASSERT_TRUE(hall.drawings.skins());
     EXPECT_TRUE(hall.inputs.empty()) << "its skin is told first";
@@ -178,7 +178,7 @@ TEST(Drawings, areRefusedWithTheReason) {
     Drawings none(std::nullopt, {});
     EXPECT_THAT(none.offer(1, small, kNoon, number).reason, HasSubstr("drawings { }"));
     EXPECT_FALSE(none.version());
-    EXPECT_EQ(hall.decide(5, Verdict::TAKE_DOWN).outcome, ask::Outcome::Refused);
+    EXPECT_EQ(hall.decide(5, Judgement::TAKE_DOWN).outcome, ask::Outcome::Refused);
 }
 
 // A phone that hears no answer says it again.
@@ -195,8 +195,8 @@ TEST(Drawings, enterFromTheSideThatTheCrewNames) {
     Hall hall(rules(false));
     hall.offer(1);
     hall.offer(2);
-    EXPECT_EQ(hall.decide(1, Verdict::LET_IN, -1).outcome, ask::Outcome::Done);
-    EXPECT_EQ(hall.decide(2, Verdict::LET_IN).outcome, ask::Outcome::Done);
+    EXPECT_EQ(hall.decide(1, Judgement::LET_IN, -1).outcome, ask::Outcome::Done);
+    EXPECT_EQ(hall.decide(2, Judgement::LET_IN).outcome, ask::Outcome::Done);
     hall.pass(5);
     ASSERT_EQ(hall.inputs.size(), 2U);
     EXPECT_EQ(std::get<world::EnterDrawing>(hall.inputs[0]).aside, -1);
@@ -211,7 +211,7 @@ TEST(Drawings, enterAndLeaveABusyWorldOnceItTakesThem) {
     hall.isBusy = true;
     hall.pass(5);
     EXPECT_TRUE(hall.inputs.empty());
-    ASSERT_EQ(hall.decide(1, Verdict::TAKE_DOWN).outcome, ask::Outcome::Done);
+    ASSERT_EQ(hall.decide(1, Judgement::TAKE_DOWN).outcome, ask::Outcome::Done);
     hall.offer(2);
     hall.pass(6);
     EXPECT_THAT(hall.conditions(), HasSubstr("1 LEAVING as 10")) << "it is still to enter";
@@ -231,7 +231,7 @@ TEST(Drawings, ofASpeciesMakeRoomTheOldestFirst) {
     for (std::uint16_t code = 1; code <= 3; ++code) hall.offer(code);
     hall.pass(12);
     EXPECT_EQ(hall.conditions(), "1 SWIMMING as 10; 2 SWIMMING as 11; 3 SWIMMING as 12; ");
-    EXPECT_EQ(hall.decide(1, Verdict::KEEP).outcome, ask::Outcome::Done);
+    EXPECT_EQ(hall.decide(1, Judgement::KEEP).outcome, ask::Outcome::Done);
     hall.offer(4);
     hall.pass(5);
     EXPECT_THAT(hall.conditions(), HasSubstr("2 LEAVING as 11"));
@@ -278,8 +278,8 @@ TEST(Drawings, goAtTheEndOfTheDayUnlessTheyAreKept) {
     hall.offer(1);
     hall.offer(2);
     hall.pass(8);
-    ASSERT_EQ(hall.decide(2, Verdict::KEEP).outcome, ask::Outcome::Done);
-    ASSERT_EQ(hall.decide(0, Verdict::END_DAY).outcome, ask::Outcome::Done);
+    ASSERT_EQ(hall.decide(2, Judgement::KEEP).outcome, ask::Outcome::Done);
+    ASSERT_EQ(hall.decide(0, Judgement::END_DAY).outcome, ask::Outcome::Done);
     hall.pass(8);
     EXPECT_EQ(hall.conditions(), "2 SWIMMING as 11; ");
     hall.offer(3);
@@ -323,8 +323,8 @@ TEST(Drawings, surviveARestart) {
     {
         Hall hall(rules(false), at);
         for (std::uint16_t code = 1; code <= 3; ++code) hall.offer(code);
-        EXPECT_EQ(hall.decide(2, Verdict::LET_IN).outcome, ask::Outcome::Done);
-        EXPECT_EQ(hall.decide(3, Verdict::TAKE_DOWN).outcome, ask::Outcome::Done);
+        EXPECT_EQ(hall.decide(2, Judgement::LET_IN).outcome, ask::Outcome::Done);
+        EXPECT_EQ(hall.decide(3, Judgement::TAKE_DOWN).outcome, ask::Outcome::Done);
         hall.pass(6);
     }
     EXPECT_FALSE(std::filesystem::exists(at / "3.png"));
@@ -354,7 +354,7 @@ TEST(Drawings, thatWereTakenSurviveAKilledMaster) {
     Hall hall(rules(false), at);
     ASSERT_EQ(hall.offer(1), 1U);
     ASSERT_EQ(hall.offer(2), 2U);
-    ASSERT_EQ(hall.decide(2, Verdict::LET_IN, -1).outcome, ask::Outcome::Done);
+    ASSERT_EQ(hall.decide(2, Judgement::LET_IN, -1).outcome, ask::Outcome::Done);
     std::filesystem::copy(at, copy);  // what a killed one leaves
     Hall restarted(rules(false), copy);
     EXPECT_EQ(restarted.conditions(), "1 WAITING; 2 SWIMMING; ");
@@ -371,7 +371,7 @@ TEST(Drawings, giveTheSkinsOfFormerListsForAWhile) {
     hall.offer(1);
     hall.pass(5);
     const Digest former = hall.drawings.skins().value();
-    ASSERT_EQ(hall.decide(1, Verdict::TAKE_DOWN).outcome, ask::Outcome::Done);
+    ASSERT_EQ(hall.decide(1, Judgement::TAKE_DOWN).outcome, ask::Outcome::Done);
     hall.pass(6);
     EXPECT_FALSE(hall.drawings.skins());
     EXPECT_TRUE(hall.drawings.blob(former));

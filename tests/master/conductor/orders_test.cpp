@@ -27,19 +27,19 @@ OrderLimits limits() {
     return show;
 }
 
-v1::Order black(bool on) {
+v1::Order blackOrder(bool on) {
     v1::Order order;
     order.mutable_show()->set_black(on);
     return order;
 }
 
-v1::Order brightness(double share) {
+v1::Order brightnessOrder(double share) {
     v1::Order order;
     order.mutable_show()->set_brightness(share);
     return order;
 }
 
-v1::Order scene(const std::string& name) {
+v1::Order sceneOrder(const std::string& name) {
     v1::Order order;
     order.mutable_show()->set_scene(name);
     return order;
@@ -96,7 +96,7 @@ v1::Order day(v1::WantedShow::Day wanted) {
     return order;
 }
 
-v1::Order colour(double share) {
+v1::Order colourOrder(double share) {
     v1::Order order;
     order.mutable_show()->set_colour_returned(share);
     return order;
@@ -183,7 +183,7 @@ TEST_F(DeskOrders, aTimeOfDayHoldsAtOnceAndIsKept) {
     EXPECT_EQ(give(1, day(v1::WantedShow::DUSK)).outcome(), Reply::DONE);
     EXPECT_EQ(orders.control().wanted().day(), v1::WantedShow::DUSK);
     EXPECT_EQ(orders.control().kept().day(), v1::WantedShow::DUSK);
-    EXPECT_EQ(give(2, scene("lagoon")).outcome(), Reply::WAITING);
+    EXPECT_EQ(give(2, sceneOrder("lagoon")).outcome(), Reply::WAITING);
     EXPECT_EQ(orders.control().next().day(), v1::WantedShow::DUSK) << "in the next scene too";
 }
 
@@ -193,7 +193,7 @@ TEST_F(DeskOrders, aFaderIsInTheLogOnceItRests) {
     setLogListener([&](Severity, const std::string& line) { said.push_back(line); });
     std::uint64_t request = 0;
     for (int step = 0; step < 20; ++step, pass(std::chrono::milliseconds(100)))
-        give(++request, colour(0.01 * step));
+        give(++request, colourOrder(0.01 * step));
     pass(seconds(2));
     pass(seconds(2));
     setLogListener(nullptr);
@@ -201,17 +201,17 @@ TEST_F(DeskOrders, aFaderIsInTheLogOnceItRests) {
 }
 
 TEST_F(DeskOrders, blackIsDoneAtOnceAndOnceForEachRequest) {
-    EXPECT_EQ(give(1, black(true)).outcome(), Reply::DONE);
+    EXPECT_EQ(give(1, blackOrder(true)).outcome(), Reply::DONE);
     EXPECT_TRUE(orders.control().wanted().black());
-    EXPECT_EQ(give(2, black(false)).outcome(), Reply::DONE);
-    EXPECT_EQ(give(1, black(true)).outcome(), Reply::DONE) << "a packet that came late";
+    EXPECT_EQ(give(2, blackOrder(false)).outcome(), Reply::DONE);
+    EXPECT_EQ(give(1, blackOrder(true)).outcome(), Reply::DONE) << "a packet that came late";
     EXPECT_FALSE(orders.control().wanted().black());
 }
 
 TEST_F(DeskOrders, anOrderToAnotherRunIsRefusedWhateverItAsks) {
     report("left", true);
     std::uint64_t request = 0;
-    for (v1::Order order : {black(true), scan(7, 3), restart("left"), reboot("left")}) {
+    for (v1::Order order : {blackOrder(true), scan(7, 3), restart("left"), reboot("left")}) {
         order.set_run(test::kRun + 1);
         EXPECT_THAT(give(++request, order).reason(), HasSubstr("the show was started again"));
     }
@@ -226,7 +226,7 @@ TEST_F(DeskOrders, nothingIsOrderedOfAShowInLockstep) {
     Orders same(lockstep, parts.roster, parts.sender, drawings);
     std::uint64_t request = 0;
     for (v1::Order order :
-         {black(true), scan(7, 3), restart("left"), reboot("left"), release("shark")}) {
+         {blackOrder(true), scan(7, 3), restart("left"), reboot("left"), release("shark")}) {
         order.set_request(++request);
         const Reply reply = same.obey("somebody here", order, unpublished, now);
         EXPECT_EQ(reply.outcome(), Reply::REFUSED);
@@ -236,21 +236,21 @@ TEST_F(DeskOrders, nothingIsOrderedOfAShowInLockstep) {
 }
 
 TEST_F(DeskOrders, aSceneIsWaitedForUntilItIsShown) {
-    EXPECT_EQ(give(1, scene("lagoon")).outcome(), Reply::WAITING);
-    EXPECT_EQ(give(2, scene("pond")).outcome(), Reply::REFUSED);
+    EXPECT_EQ(give(1, sceneOrder("lagoon")).outcome(), Reply::WAITING);
+    EXPECT_EQ(give(2, sceneOrder("pond")).outcome(), Reply::REFUSED);
     orders.control().made();
     orders.control().setWaitingFor("prepared by all nodes but left");
-    EXPECT_EQ(give(1, scene("lagoon")).reason(), "prepared by all nodes but left");
+    EXPECT_EQ(give(1, sceneOrder("lagoon")).reason(), "prepared by all nodes but left");
     orders.control().prepared();
     orders.control().blackShown();
     orders.control().switched();
-    EXPECT_EQ(give(1, scene("lagoon")).outcome(), Reply::DONE);
+    EXPECT_EQ(give(1, sceneOrder("lagoon")).outcome(), Reply::DONE);
     EXPECT_EQ(orders.control().wanted().scene(), "lagoon");
 }
 
 TEST_F(DeskOrders, whatCannotBeShownIsRefusedWithAReason) {
-    EXPECT_THAT(give(1, scene("scenes/reef")).reason(), HasSubstr("without folder"));
-    EXPECT_THAT(give(2, scene("reef.txtpb")).reason(), HasSubstr("without folder"));
+    EXPECT_THAT(give(1, sceneOrder("scenes/reef")).reason(), HasSubstr("without folder"));
+    EXPECT_THAT(give(2, sceneOrder("reef.txtpb")).reason(), HasSubstr("without folder"));
     v1::Order quality;
     quality.mutable_show()->set_quality(v1::WantedShow::AUTO);
     EXPECT_THAT(give(3, quality).reason(), HasSubstr("not every node has measured"));
@@ -259,7 +259,7 @@ TEST_F(DeskOrders, whatCannotBeShownIsRefusedWithAReason) {
     OrderLimits recorded = limits();
     recorded.whyOneScene = "a recording has one scene";
     Orders one(recorded, parts.roster, parts.sender, drawings);
-    v1::Order lagoon = scene("lagoon");
+    v1::Order lagoon = sceneOrder("lagoon");
     lagoon.set_request(5);
     EXPECT_EQ(one.obey("operator anna", lagoon, unpublished, now).reason(),
               "a recording has one scene");
@@ -336,22 +336,22 @@ TEST_F(DeskOrders, aScanIsDoneWhenEveryChannelHasShownItsPattern) {
 TEST_F(DeskOrders, aScanHasTheWallForItself) {
     EXPECT_EQ(give(1, scan(7, 3)).outcome(), Reply::WAITING);
     EXPECT_THAT(give(2, scan(8, 3)).reason(), HasSubstr("another scan holds the wall"));
-    EXPECT_THAT(give(3, scene("lagoon")).reason(), HasSubstr("a scan holds the wall"));
-    EXPECT_EQ(give(4, black(true)).outcome(), Reply::DONE) << "the wall may always go black";
+    EXPECT_THAT(give(3, sceneOrder("lagoon")).reason(), HasSubstr("a scan holds the wall"));
+    EXPECT_EQ(give(4, blackOrder(true)).outcome(), Reply::DONE) << "the wall may always go black";
     EXPECT_THAT(give(5, scan(7, 4)).reason(), HasSubstr("the wall is set black"));
     pass(seconds(4));
     EXPECT_FALSE(orders.scan().pattern()) << "its holder has fallen silent";
-    give(6, black(false));
-    give(7, scene("lagoon"));
+    give(6, blackOrder(false));
+    give(7, sceneOrder("lagoon"));
     EXPECT_THAT(give(8, scan(7, 4)).reason(), HasSubstr("another change is under way"));
 }
 
 TEST_F(DeskOrders, aScanHasFullLight) {
-    EXPECT_EQ(give(1, brightness(0.5)).outcome(), Reply::DONE);
+    EXPECT_EQ(give(1, brightnessOrder(0.5)).outcome(), Reply::DONE);
     EXPECT_THAT(give(2, scan(7, 3)).reason(), HasSubstr("set brightness 1 for a scan"));
-    give(3, brightness(1));
+    give(3, brightnessOrder(1));
     EXPECT_EQ(give(4, scan(7, 3)).outcome(), Reply::WAITING);
-    EXPECT_THAT(give(5, brightness(0.5)).reason(), HasSubstr("a scan holds the wall"));
+    EXPECT_THAT(give(5, brightnessOrder(0.5)).reason(), HasSubstr("a scan holds the wall"));
 }
 
 }  // namespace

@@ -156,7 +156,7 @@ TEST(RequestClient, saysWhenNoMasterAnswers) {
     EXPECT_THROW(static_cast<void>(ask::RequestClient(free).status()), Error);
 }
 
-constexpr net::Moment kStart{std::chrono::seconds(100)};
+constexpr net::Moment kBegin{std::chrono::seconds(100)};
 
 // Midnight lies between ticks 2 and 3.
 float timeOfDayAt(std::uint64_t tick) {
@@ -177,13 +177,13 @@ Snapshot at(std::uint64_t tick, net::Moment due) {
 SnapshotBuffer ticks(std::uint64_t first, std::uint64_t last) {
     SnapshotBuffer snapshots;
     for (std::uint64_t tick = first; tick <= last; ++tick) {
-        snapshots.add(at(tick, kStart + static_cast<std::int64_t>(tick) * kTickPeriod));
+        snapshots.add(at(tick, kBegin + static_cast<std::int64_t>(tick) * kTickPeriod));
     }
     return snapshots;
 }
 
 TEST(SnapshotBuffer, isEmptyBeforeTheFirstTick) {
-    EXPECT_FALSE(SnapshotBuffer{}.showing({0}, kStart));
+    EXPECT_FALSE(SnapshotBuffer{}.showing({0}, kBegin));
     EXPECT_FALSE(SnapshotBuffer{}.showing({0}, Tick{0}));
     EXPECT_FALSE(SnapshotBuffer{}.newest());
 }
@@ -205,7 +205,7 @@ TEST(SnapshotBuffer, lockstepShowsTheTickItself) {
 
 TEST(SnapshotBuffer, aMomentBetweenTwoTicksShowsBothAndTheFraction) {
     const SnapshotBuffer snapshots = ticks(0, 5);
-    const auto state = snapshots.showing({1}, kStart + 2 * kTickPeriod + kTickPeriod / 4);
+    const auto state = snapshots.showing({1}, kBegin + 2 * kTickPeriod + kTickPeriod / 4);
     ASSERT_TRUE(state);
     EXPECT_EQ(state->tick, Tick{3});
     EXPECT_NEAR(state->fraction, 0.25F, 1e-6F);
@@ -213,33 +213,33 @@ TEST(SnapshotBuffer, aMomentBetweenTwoTicksShowsBothAndTheFraction) {
     EXPECT_EQ(state->foodBefore[0].bits, 2U);
     EXPECT_EQ(state->foodAfter[0].bits, 3U);
     EXPECT_NEAR(state->timeOfDay, 0.99F, 1e-6F);
-    const auto later = snapshots.showing({1}, kStart + 2 * kTickPeriod + 3 * kTickPeriod / 4);
+    const auto later = snapshots.showing({1}, kBegin + 2 * kTickPeriod + 3 * kTickPeriod / 4);
     ASSERT_TRUE(later);
     EXPECT_NEAR(later->timeOfDay, 0.01F, 1e-6F) << "past midnight";
 }
 
 TEST(SnapshotBuffer, aTicksOwnMomentShowsItAlone) {
     const SnapshotBuffer snapshots = ticks(0, 5);
-    const auto state = snapshots.showing({1}, kStart + 4 * kTickPeriod);
+    const auto state = snapshots.showing({1}, kBegin + 4 * kTickPeriod);
     ASSERT_TRUE(state);
     EXPECT_EQ(state->tick, Tick{4});
     EXPECT_EQ(state->fraction, 1.0F);
 }
 
 TEST(SnapshotBuffer, momentsOutsideShowTheNearestTick) {
-    EXPECT_EQ(ticks(3, 5).showing({1}, kStart)->tick, Tick{3});
-    EXPECT_EQ(ticks(3, 5).showing({1}, kStart + std::chrono::seconds(100))->tick, Tick{5});
+    EXPECT_EQ(ticks(3, 5).showing({1}, kBegin)->tick, Tick{3});
+    EXPECT_EQ(ticks(3, 5).showing({1}, kBegin + std::chrono::seconds(100))->tick, Tick{5});
 }
 
 TEST(SnapshotBuffer, theWorldStandsStillThroughAPause) {
     SnapshotBuffer snapshots = ticks(0, 1);
-    snapshots.add(at(2, kStart + 600 * kTickPeriod));
+    snapshots.add(at(2, kBegin + 600 * kTickPeriod));
     for (const int tick : {2, 300, 599}) {
-        const auto state = snapshots.showing({1}, kStart + tick * kTickPeriod);
+        const auto state = snapshots.showing({1}, kBegin + tick * kTickPeriod);
         EXPECT_EQ(state->tick, Tick{1});
         EXPECT_EQ(state->fraction, 1.0F);
     }
-    const auto state = snapshots.showing({1}, kStart + 599 * kTickPeriod + kTickPeriod / 2);
+    const auto state = snapshots.showing({1}, kBegin + 599 * kTickPeriod + kTickPeriod / 2);
     EXPECT_EQ(state->tick, Tick{2});
     EXPECT_NEAR(state->fraction, 0.5F, 1e-6F);
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "capture/capture_repertoire.h"
+#include "capture/repertoire_files.h"
 #include "common/base/files.h"
 #include "common/config/scene.h"
 #include "common/config/species.h"
@@ -23,7 +23,7 @@ inline const motion::Repertoire& capturedRepertoire(const std::string& species) 
     if (!all.contains(species)) {
         const capture::RepertoireFile file =
             capture::repertoiresFor(
-                {test::castMember(species)}, cacheFolder() / "repertoires", capture::CaptureRun{})
+                {test::castMember(species)}, capture::repertoireFolders(), capture::CaptureRun{})
                 .front();
         all.emplace(species, motion::decodeRepertoire(file.bytes, species));
     }

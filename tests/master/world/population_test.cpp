@@ -17,14 +17,14 @@ int minutes() {
     return std::getenv("AQUARAMA_SOAK") == nullptr ? 30 : 24 * 60;
 }
 
-constexpr std::uint32_t kScads = 40, kTangs = 6;
+constexpr std::uint32_t kPopulationScads = 40, kPopulationTangs = 6;
 
 WorldOptions livingSea() {
     WorldSpecies hunter = sharks(1);
     hunter.habits.hunts.emplace_back("blue_tang");
-    WorldSpecies prey = scads(kScads);
+    WorldSpecies prey = scads(kPopulationScads);
     prey.habits.fear.metres = 0.8F;  // in so little water farther sight would be endless fear
-    WorldOptions options = openWater(4, {prey, pacifists(kTangs), hunter});
+    WorldOptions options = openWater(4, {prey, pacifists(kPopulationTangs), hunter});
     options.scene.gathering = config::Gathering::None;
     options.scene.plankton = 300;
     options.scene.eye = place::kEyePosition;
@@ -60,10 +60,10 @@ TEST(Population, isStable) {
         countOctants(world, octants);
         if (minute < 10) continue;
         float hunger = 0;
-        for (std::uint32_t fish = 0; fish < kScads + kTangs; ++fish)
+        for (std::uint32_t fish = 0; fish < kPopulationScads + kPopulationTangs; ++fish)
             hunger += fish::innerHunger(world.speciesParameters()[world.view().kind[fish]],
                                         world.minds()[fish]);
-        mostHungry = std::max(mostHungry, hunger / (kScads + kTangs));
+        mostHungry = std::max(mostHungry, hunger / (kPopulationScads + kPopulationTangs));
     }
     const WorldCounts& counts = world.counts();
     std::cout << minutes() << " minutes: " << counts.meals << " meals, " << counts.catches

@@ -21,12 +21,6 @@ namespace {
 
 constexpr glm::vec3 kFishPlace = place::kEyePosition + glm::vec3(0.2F, 0.1F, -3);
 
-wire::StateFrame emptySea() {
-    wire::StateFrame frame = frameNumber(1);
-    frame.eye.positionMetres = place::kEyePosition;
-    return frame;
-}
-
 wire::StateFrame frameWithAFish(const motion::BodyFrame& body = {.position = kFishPlace}) {
     wire::StateFrame frame = emptySea();
     motion::MotionStates states;

@@ -22,8 +22,8 @@
 namespace aquarama::show {
 namespace {
 
-constexpr glm::ivec2 kSize(512, 16);
-constexpr std::uint32_t kChannelId = 5;
+constexpr glm::ivec2 kLine(512, 16);
+constexpr std::uint32_t kColouredChannel = 5;
 
 // A projector's response and the codes that undo it.
 struct Curve {
@@ -66,26 +66,26 @@ formats::ChannelColour colourOf(const glm::mat3& mix, const std::vector<float>& 
 class ColourTest : public testing::Test {
   protected:
     static ProjectionMap columns() {
-        ProjectionMap map{.sizePixels = kSize, .placeAndWeight = {}};
-        for (int y = 0; y < kSize.y; ++y)
-            for (int x = 0; x < kSize.x; ++x)
+        ProjectionMap map{.sizePixels = kLine, .placeAndWeight = {}};
+        for (int y = 0; y < kLine.y; ++y)
+            for (int x = 0; x < kLine.x; ++x)
                 map.placeAndWeight.emplace_back(
-                    (static_cast<float>(x) + 0.5F) / kSize.x, 0.5F, 1, 0);
+                    (static_cast<float>(x) + 0.5F) / kLine.x, 0.5F, 1, 0);
         return map;
     }
     // Light of each column; of half floats, so that they are shown as they are.
     void show(const std::function<glm::vec3(int)>& lightOfColumn) {
         std::vector<glm::vec3> light;
-        for (int y = 0; y < kSize.y; ++y)
-            for (int x = 0; x < kSize.x; ++x) light.push_back(lightOfColumn(x));
+        for (int y = 0; y < kLine.y; ++y)
+            for (int x = 0; x < kLine.x; ++x) light.push_back(lightOfColumn(x));
         glTextureSubImage2D(
-            scene_.texture(), 0, 0, 0, kSize.x, kSize.y, GL_RGB, GL_FLOAT, light.data());
+            scene_.texture(), 0, 0, 0, kLine.x, kLine.y, GL_RGB, GL_FLOAT, light.data());
         light_ = gl::readRgb<float>(scene_);
     }
     // Fine steps near black, and some light over full white.
     void showGreyRamp() {
         show([](int x) {
-            const float root = static_cast<float>(x) * 1.05F / (kSize.x - 1);
+            const float root = static_cast<float>(x) * 1.05F / (kLine.x - 1);
             return glm::vec3(root * root);
         });
     }
@@ -96,9 +96,9 @@ class ColourTest : public testing::Test {
     template <class Sample>
     std::vector<Sample> project(const formats::ChannelColour& colour, float brightness = 1) {
         const bool isDeep = sizeof(Sample) == 2;
-        const gl::Target target(isDeep ? GL_RGBA16 : GL_RGBA8, kSize);
+        const gl::Target target(isDeep ? GL_RGBA16 : GL_RGBA8, kLine);
         const ProjectorCodes codes(colour);
-        Projection(map_, kChannelId)
+        Projection(map_, kColouredChannel)
             .draw({.sceneTexture = scene_.texture(),
                    .framebuffer = target.framebuffer(),
                    .frame = {},
@@ -110,7 +110,7 @@ class ColourTest : public testing::Test {
 
     std::unique_ptr<gl::Context> context_ = gl::makeOffscreenContext("auto", {16, 16});
     ProjectionMap map_ = columns();
-    gl::Target scene_{GL_RGBA16F, kSize};
+    gl::Target scene_{GL_RGBA16F, kLine};
     std::vector<float> light_;
 };
 
@@ -211,10 +211,10 @@ TEST_F(ColourTest, pairsHaveIt) {
     showGreyRamp();
     const formats::ChannelColour colour = colourOf(kMix, {0, 0.1F, 0.35F, 1});
     const ProjectorCodes codes(colour);
-    const Projection eye(map_, kChannelId);
-    const gl::Target target(GL_RGBA16, kSize);
+    const Projection eye(map_, kColouredChannel);
+    const gl::Target target(GL_RGBA16, kLine);
     const auto packed = [&](config::StereoMode mode) {
-        PairProjection(kSize, kChannelId, mode)
+        PairProjection(kLine, kColouredChannel, mode)
             .draw({scene_.texture(), eye},
                   {scene_.texture(), eye},
                   {.framebuffer = target.framebuffer(),

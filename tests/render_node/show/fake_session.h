@@ -15,6 +15,7 @@
 
 #include <glm/gtc/quaternion.hpp>
 
+#include "common/place/place.h"
 #include "render_node/gl/context.h"
 #include "render_node/session/session.h"
 #include "tests/common/wall/rigs.h"
@@ -165,6 +166,13 @@ inline wire::StateFrame frameNumber(std::uint64_t number,
     frame.show.pattern = pattern;
     frame.frame = {number};
     frame.tick = {number};
+    return frame;
+}
+
+// The world without fish.
+inline wire::StateFrame emptySea() {
+    wire::StateFrame frame = frameNumber(1);
+    frame.eye.positionMetres = place::kEyePosition;
     return frame;
 }
 

@@ -16,7 +16,7 @@
 namespace aquarama::show {
 namespace {
 
-constexpr double kMarginRadians = 0.01;
+constexpr double kPairMargin = 0.01;
 constexpr std::size_t kChannel = 2;
 constexpr std::uint32_t kChannelId = 7;
 
@@ -43,7 +43,7 @@ class PairProjectionTest : public testing::Test {
     struct EyeStage {
         explicit EyeStage(const config::Rig& rig, wall::EyeSide side, float turn)
             : map{projectionMap(wall::Wall(rig).warp(kChannel),
-                                wall::Wall(rig).frustum(kChannel, kMarginRadians, side))},
+                                wall::Wall(rig).frustum(kChannel, kPairMargin, side))},
               projection{map, kChannelId},
               masked{withMasks(map), kChannelId},
               scene{GL_RGBA16F, scenePictureSize(map)} {

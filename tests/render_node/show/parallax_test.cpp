@@ -12,10 +12,10 @@
 namespace aquarama::show {
 namespace {
 
-constexpr double kMarginRadians = 0.01;
+constexpr double kParallaxMargin = 0.01;
 
 // Texture coordinate that the map has at a continuous pixel of the projector, between texels.
-glm::dvec2 placeAt(const ProjectionMap& map, glm::dvec2 pixel) {
+glm::dvec2 placeBetween(const ProjectionMap& map, glm::dvec2 pixel) {
     const glm::dvec2 at = pixel - 0.5;
     const glm::ivec2 low(glm::floor(at));
     const glm::dvec2 t = at - glm::dvec2(low);
@@ -47,14 +47,14 @@ TEST_P(Parallax, ofEveryEyeEndsOnTheScreenWhereItsLineOfSightDoes) {
     const glm::dvec3 middle = optics.pointOf(glm::dvec2(channel.sizePixels) / 2.0, 0).value();
     const wall::WarpMap warp = wall.warp(GetParam());
     for (const wall::EyeSide side : {wall::EyeSide::Left, wall::EyeSide::Right}) {
-        const wall::ChannelFrustum frustum = wall.frustum(GetParam(), kMarginRadians, side);
+        const wall::ChannelFrustum frustum = wall.frustum(GetParam(), kParallaxMargin, side);
         const ProjectionMap map = projectionMap(warp, frustum);
         const glm::dvec3 eye = wall::eyePosition(rig, side);
         for (const double away : {0.4, 1.0, 2.5, 100.0}) {
             const glm::dvec3 point = middle * away;  // before, on and behind the screen
             const auto lit = wall.screen().hit({eye, point - eye}, 1).value();
             const auto pixel = optics.pixelOf(lit).value();
-            const glm::dvec2 off = placeAt(map, pixel) - seenAt(frustum, point);
+            const glm::dvec2 off = placeBetween(map, pixel) - seenAt(frustum, point);
             EXPECT_LT(glm::length(off * glm::dvec2(scenePictureSize(map))), 0.02)
                 << "channel " << channel.name << ", " << away << " of the way to the screen";
         }

@@ -14,12 +14,12 @@
 namespace aquarama::show {
 namespace {
 
-constexpr std::size_t kMiddle = 1;  // channel of the desk
+constexpr std::size_t kMiddleChannel = 1;  // channel of the desk
 const wire::Eye kEye{.positionMetres = {1, -6, 2}, .worldFromWall = {1, 0, 0, 0}};
 
 // By closed forms alone: the screen is seen from its middle.
 TEST(Pointing, theMiddleOfTheMiddleChannelLooksStraightAhead) {
-    const Pointing pointing(wall::shippedRig("desk"), kMiddle);
+    const Pointing pointing(wall::shippedRig("desk"), kMiddleChannel);
     const auto direction = pointing.directionOf(pointing.middle(), kEye);
     ASSERT_TRUE(direction);
     EXPECT_NEAR(direction->x, 0, 1e-3);
@@ -46,7 +46,7 @@ TEST(Pointing, aPinchFallsBehindThePixelThatIsPointedAt) {
 }
 
 TEST(Pointing, turnsWithTheSubmarine) {
-    const Pointing pointing(wall::shippedRig("desk"), kMiddle);
+    const Pointing pointing(wall::shippedRig("desk"), kMiddleChannel);
     const wire::Eye left{
         .positionMetres = {0, -6, 0},
         .worldFromWall = glm::angleAxis(glm::half_pi<float>(), glm::vec3(0, 1, 0))};
@@ -56,7 +56,7 @@ TEST(Pointing, turnsWithTheSubmarine) {
 }
 
 TEST(Pointing, dropsNothingIntoTheAir) {
-    const Pointing pointing(wall::shippedRig("desk"), kMiddle);
+    const Pointing pointing(wall::shippedRig("desk"), kMiddleChannel);
     const wire::Eye shallow{.positionMetres = {0, -0.1F, 0}, .worldFromWall = {1, 0, 0, 0}};
     const auto pinch = pointing.pinchAt({240, 60}, shallow);
     ASSERT_TRUE(pinch);

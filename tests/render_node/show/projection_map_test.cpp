@@ -14,7 +14,7 @@
 namespace aquarama::show {
 namespace {
 
-constexpr double kMarginRadians = 0.01;
+constexpr double kMapMargin = 0.01;
 
 // Direction from the sweet spot through a place in the frustum's picture, wall frame.
 glm::dvec3 directionThrough(const wall::ChannelFrustum& frustum, glm::dvec2 place) {
@@ -30,7 +30,7 @@ TEST(ProjectionMap, leadsEachPixelToTheRayThroughThePointThatItLights) {
         const config::Rig rig = wall::shippedRig(name);
         for (std::size_t channel = 0; channel < rig.channels.size(); ++channel) {
             const wall::WarpMap warp = wall::Wall(rig).warp(channel);
-            const wall::ChannelFrustum frustum = wall::Wall(rig).frustum(channel, kMarginRadians);
+            const wall::ChannelFrustum frustum = wall::Wall(rig).frustum(channel, kMapMargin);
             const ProjectionMap map = projectionMap(warp, frustum);
             const glm::dvec2 size(scenePictureSize(map));
             const double pixelRadians = (frustum.right - frustum.left) / size.x;
@@ -77,7 +77,7 @@ TEST(ProjectionMap, everyChannelShowsAPointOfTheWorldAtOnePlaceOfTheWall) {
                 directions.push_back(*point);
         std::vector<std::size_t> channelsOf(directions.size(), 0);
         for (std::size_t channel = 0; channel < rig.channels.size(); ++channel) {
-            const wall::ChannelFrustum frustum = wall.frustum(channel, kMarginRadians);
+            const wall::ChannelFrustum frustum = wall.frustum(channel, kMapMargin);
             const ProjectionMap map = projectionMap(wall.warp(channel), frustum);
             const glm::dvec2 size(scenePictureSize(map));
             for (std::size_t i = 0; i < directions.size(); ++i) {
@@ -99,7 +99,7 @@ TEST(ProjectionMap, everyChannelShowsAPointOfTheWorldAtOnePlaceOfTheWall) {
 TEST(ProjectionMap, staysInsideThePictureWithRoomForTheFilter) {
     const config::Rig rig = wall::shippedRig("desk");
     const ProjectionMap map =
-        projectionMap(wall::Wall(rig).warp(0), wall::Wall(rig).frustum(0, kMarginRadians));
+        projectionMap(wall::Wall(rig).warp(0), wall::Wall(rig).frustum(0, kMapMargin));
     const glm::vec2 texel = 1.0F / glm::vec2(scenePictureSize(map));
     for (const glm::vec4& place : map.placeAndWeight) {
         if (place.z <= 0) continue;
@@ -114,7 +114,7 @@ TEST(ProjectionMap, scenePictureIsAsFineAsTheProjector) {
     for (const char* name : {"desk", "theatre", "touring"}) {
         const config::Rig rig = wall::shippedRig(name);
         const ProjectionMap map =
-            projectionMap(wall::Wall(rig).warp(1), wall::Wall(rig).frustum(1, kMarginRadians));
+            projectionMap(wall::Wall(rig).warp(1), wall::Wall(rig).frustum(1, kMapMargin));
         const glm::dvec2 size(scenePictureSize(map));
         const auto width = static_cast<std::size_t>(map.sizePixels.x);
         const auto stepAt = [&](std::size_t i) {

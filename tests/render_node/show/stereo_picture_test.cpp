@@ -47,12 +47,6 @@ wire::StateFrame frameWithAFish(glm::vec3 wallPlace) {
     return frame;
 }
 
-wire::StateFrame emptySea() {
-    wire::StateFrame frame = frameNumber(1);
-    frame.eye.positionMetres = place::kEyePosition;
-    return frame;
-}
-
 class StereoPictureTest : public testing::Test {
   protected:
     std::unique_ptr<gl::Context> context_ = gl::makeOffscreenContext("mesa", {16, 16});
