@@ -71,7 +71,8 @@ class FirstStart(Alone):
         try:
             self.start()
             client = Socket(self, Origin=None, Authorization=f"Bearer {self.token()}")
-            wall = client.hear_until(lambda message: message.get("wall", {}).get("preparing"))["wall"]
+            says_what = lambda message: "capturing" in message.get("wall", {}).get("preparing", "")  # not at once
+            wall = client.hear_until(says_what)["wall"]
             self.assertRegex(wall["preparing"], r"^the master prepares: capturing 15 of 15 species, \d+ %$")
             self.assertFalse(wall["heard"])
             client.close()
