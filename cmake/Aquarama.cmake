@@ -148,28 +148,29 @@ endfunction()
 
 # aquarama_test(motion [KIND] SOURCES a_test.cpp ... [LINK targets...]): one program, one ctest row.
 function(aquarama_test name)
-  cmake_parse_arguments(ARG "WAITS;REAL_TIME" "" "SOURCES;LINK" ${ARGN})
+  cmake_parse_arguments(ARG "REAL_TIME;PATIENT;WAITS" "" "SOURCES;LINK" ${ARGN})
   add_executable(aquarama_${name}_test ${ARG_SOURCES})
   target_link_libraries(aquarama_${name}_test PRIVATE aquarama_test_support ${ARG_LINK} GTest::gmock GTest::gtest_main)
   target_compile_options(aquarama_${name}_test PRIVATE -ffp-contract=off)
   target_precompile_headers(aquarama_${name}_test REUSE_FROM aquarama_test_headers)
   set_target_properties(aquarama_${name}_test PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   set(KIND "")
-  if(ARG_REAL_TIME)
-    set(KIND REAL_TIME)
-  elseif(ARG_WAITS)
-    set(KIND WAITS)
-  endif()
+  foreach(ONE REAL_TIME PATIENT WAITS)
+    if(ARG_${ONE})
+      set(KIND ${ONE})
+    endif()
+  endforeach()
   aquarama_suite(${name} ${KIND} COMMAND $<TARGET_FILE:aquarama_${name}_test>)
 endfunction()
 
-# aquarama_suite(motion [KIND] COMMAND command...): a ctest row whose processor time is compared with its
-# line in tests/budgets.csv. The timeouts of the test presets are only for programs that hang. Software OpenGL draws
-# with one thread. The user's cache of the programs is in the build folder. What runs at once, where ctest has four
-# places for each processor:
+# aquarama_suite(motion [KIND] COMMAND command...): a ctest row whose processor time is compared with its line in
+# tests/budgets.csv. The timeouts of the test presets are only for programs that hang. Software OpenGL draws with one
+# thread. The user's cache of the programs is in the build folder. What runs at once, where ctest has four places for
+# each processor:
 #   REAL_TIME: processes wait for one another by the clock, on ports that others use too. One at a time, at first, and
-#              beside it only the next kind and suites that compute.
-#   PATIENT:   real processes too, which wait for most of the time and have minutes for each step. One at a time.
+#              beside it only one of the next kind and suites that compute.
+#   PATIENT:   real processes too, which wait for most of the time and have minutes for each step. One at a time,
+#              beside all others.
 #   WAITS:     a clock counts, but nothing is drawn in time. Beside all but REAL_TIME.
 #   none:      computes, and takes the processor when no other process wants it.
 function(aquarama_suite name)

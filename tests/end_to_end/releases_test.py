@@ -344,6 +344,7 @@ class Releases(unittest.TestCase):
             if meanwhile := self.staged_meanwhile("1.1"):
                 break
             self.hall.ask("back")
+        self.assertIsNotNone(meanwhile, "each check was over too soon")
         other, status = meanwhile
         self.assertEqual(other, "aquarama release stage: another release is being checked; wait for its end\n")
         self.assertEqual((status["phase"], len(status["machines"])), ("settled", 3))

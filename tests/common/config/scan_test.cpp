@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::vector<std::string> kScanned{"left", "right"};
+const std::vector<std::string> kScanChannels{"left", "right"};
 
 Scan someScan() {
     Scan scan{.rig = "desk",
@@ -44,7 +44,7 @@ Scan someScan() {
 
 TEST(Scan, saysTheSameAfterWritingAndReading) {
     const Scan scan = someScan();
-    const Scan again = parseScan(textOf(scan, kScanned), "scan.txtpb", kScanned);
+    const Scan again = parseScan(textOf(scan, kScanChannels), "scan.txtpb", kScanChannels);
     EXPECT_EQ(again.rig, scan.rig);
     ASSERT_EQ(again.cameras.size(), 2U);
     EXPECT_EQ(again.cameras[0].response, ScanCamera::Response::Linear);
@@ -66,12 +66,12 @@ struct ScanMistake {
 class ScanMistakes : public testing::TestWithParam<ScanMistake> {};
 
 TEST_P(ScanMistakes, areRefusedAtTheirPlace) {
-    std::string text = textOf(someScan(), kScanned);
+    std::string text = textOf(someScan(), kScanChannels);
     const auto at = text.find(GetParam().from);
     ASSERT_NE(at, std::string::npos);
     text.replace(at, GetParam().from.size(), GetParam().to);
     try {
-        (void)parseScan(text, "scan.txtpb", kScanned);
+        (void)parseScan(text, "scan.txtpb", kScanChannels);
         FAIL() << "was read";
     } catch (const Error& error) {
         EXPECT_THAT(error.what(), HasSubstr("scan.txtpb:"));

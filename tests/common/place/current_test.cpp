@@ -13,7 +13,7 @@ constexpr config::SceneCurrent kCurrent{.tideMetresPerSecond = 0.05,
                                         .tideSeconds = 620,
                                         .surgeMetresPerSecond = 0.02,
                                         .surgeSeconds = 7};
-constexpr Region kFlow{{0, -5, -5}, {6, 3, 4}};
+constexpr Region kFlowingWater{{0, -5, -5}, {6, 3, 4}};
 const Rock kRock{.centre = {1, -7, -5}, .radiusMetres = 1, .seed = 1};
 
 TEST(Current, theTideTurnsTwiceInItsPeriodAndTheSurgeInIts) {
@@ -43,7 +43,7 @@ TEST(Current, itsWayIsTheIntegralOfItsVelocityAndComesBack) {
 }
 
 TEST(Current, isStrongerOverACrownAndWeakerInTheLee) {
-    const Current current(kCurrent, {&kRock, 1}, kFlow);
+    const Current current(kCurrent, {&kRock, 1}, kFlowingWater);
     for (const float way : {1.0F, -1.0F}) {
         const glm::vec3 open{0.05F * way, 0, 0};
         const auto factor = [&](glm::vec3 place) { return current.at(place, open).x / open.x; };
@@ -57,7 +57,7 @@ TEST(Current, isStrongerOverACrownAndWeakerInTheLee) {
 }
 
 TEST(Current, isContinuousAndBoundedInAllTheWaterAndBeyond) {
-    const Current current(kCurrent, {&kRock, 1}, kFlow);
+    const Current current(kCurrent, {&kRock, 1}, kFlowingWater);
     const glm::vec3 open{0.05F, 0, 0.01F};
     constexpr float kStep = 0.01F;
     for (float x = -8; x < 8; x += 0.17F)
@@ -72,7 +72,7 @@ TEST(Current, isContinuousAndBoundedInAllTheWaterAndBeyond) {
 
 TEST(Current, stillWaterIsStill) {
     EXPECT_TRUE(Current().isStill());
-    EXPECT_TRUE(Current({}, {&kRock, 1}, kFlow).isStill());
+    EXPECT_TRUE(Current({}, {&kRock, 1}, kFlowingWater).isStill());
     EXPECT_EQ(Current().at({1, -5, -5}, {}), glm::vec3(0));
 }
 

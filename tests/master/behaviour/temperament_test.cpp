@@ -8,13 +8,13 @@
 namespace aquarama::behaviour {
 namespace {
 
-constexpr std::uint32_t kTempers = 20'000;
+constexpr std::uint32_t kTemperedFish = 20'000;
 
 double shareOf(const fish::SpeciesParameters& parameters, std::uint8_t like) {
     std::uint32_t have = 0;
-    for (std::uint32_t fish = 0; fish < kTempers; ++fish)
+    for (std::uint32_t fish = 0; fish < kTemperedFish; ++fish)
         have += (likesOf(parameters, 9, fish, 0.2F) & like) != 0 ? 1 : 0;
-    return static_cast<double>(have) / kTempers;
+    return static_cast<double>(have) / kTemperedFish;
 }
 
 // Five standard errors of a share of so many fish are 0.018.

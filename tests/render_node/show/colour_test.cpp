@@ -22,7 +22,7 @@
 namespace aquarama::show {
 namespace {
 
-constexpr glm::ivec2 kLine(512, 16);
+constexpr glm::ivec2 kStripSize(512, 16);
 constexpr std::uint32_t kColouredChannel = 5;
 
 // A projector's response and the codes that undo it.
@@ -66,26 +66,26 @@ formats::ChannelColour colourOf(const glm::mat3& mix, const std::vector<float>& 
 class ColourTest : public testing::Test {
   protected:
     static ProjectionMap columns() {
-        ProjectionMap map{.sizePixels = kLine, .placeAndWeight = {}};
-        for (int y = 0; y < kLine.y; ++y)
-            for (int x = 0; x < kLine.x; ++x)
+        ProjectionMap map{.sizePixels = kStripSize, .placeAndWeight = {}};
+        for (int y = 0; y < kStripSize.y; ++y)
+            for (int x = 0; x < kStripSize.x; ++x)
                 map.placeAndWeight.emplace_back(
-                    (static_cast<float>(x) + 0.5F) / kLine.x, 0.5F, 1, 0);
+                    (static_cast<float>(x) + 0.5F) / kStripSize.x, 0.5F, 1, 0);
         return map;
     }
     // Light of each column; of half floats, so that they are shown as they are.
     void show(const std::function<glm::vec3(int)>& lightOfColumn) {
         std::vector<glm::vec3> light;
-        for (int y = 0; y < kLine.y; ++y)
-            for (int x = 0; x < kLine.x; ++x) light.push_back(lightOfColumn(x));
+        for (int y = 0; y < kStripSize.y; ++y)
+            for (int x = 0; x < kStripSize.x; ++x) light.push_back(lightOfColumn(x));
         glTextureSubImage2D(
-            scene_.texture(), 0, 0, 0, kLine.x, kLine.y, GL_RGB, GL_FLOAT, light.data());
+            scene_.texture(), 0, 0, 0, kStripSize.x, kStripSize.y, GL_RGB, GL_FLOAT, light.data());
         light_ = gl::readRgb<float>(scene_);
     }
     // Fine steps near black, and some light over full white.
     void showGreyRamp() {
         show([](int x) {
-            const float root = static_cast<float>(x) * 1.05F / (kLine.x - 1);
+            const float root = static_cast<float>(x) * 1.05F / (kStripSize.x - 1);
             return glm::vec3(root * root);
         });
     }
@@ -96,7 +96,7 @@ class ColourTest : public testing::Test {
     template <class Sample>
     std::vector<Sample> project(const formats::ChannelColour& colour, float brightness = 1) {
         const bool isDeep = sizeof(Sample) == 2;
-        const gl::Target target(isDeep ? GL_RGBA16 : GL_RGBA8, kLine);
+        const gl::Target target(isDeep ? GL_RGBA16 : GL_RGBA8, kStripSize);
         const ProjectorCodes codes(colour);
         Projection(map_, kColouredChannel)
             .draw({.sceneTexture = scene_.texture(),
@@ -110,7 +110,7 @@ class ColourTest : public testing::Test {
 
     std::unique_ptr<gl::Context> context_ = gl::makeOffscreenContext("auto", {16, 16});
     ProjectionMap map_ = columns();
-    gl::Target scene_{GL_RGBA16F, kLine};
+    gl::Target scene_{GL_RGBA16F, kStripSize};
     std::vector<float> light_;
 };
 
@@ -212,9 +212,9 @@ TEST_F(ColourTest, pairsHaveIt) {
     const formats::ChannelColour colour = colourOf(kMix, {0, 0.1F, 0.35F, 1});
     const ProjectorCodes codes(colour);
     const Projection eye(map_, kColouredChannel);
-    const gl::Target target(GL_RGBA16, kLine);
+    const gl::Target target(GL_RGBA16, kStripSize);
     const auto packed = [&](config::StereoMode mode) {
-        PairProjection(kLine, kColouredChannel, mode)
+        PairProjection(kStripSize, kColouredChannel, mode)
             .draw({scene_.texture(), eye},
                   {scene_.texture(), eye},
                   {.framebuffer = target.framebuffer(),
