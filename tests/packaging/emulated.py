@@ -5,6 +5,7 @@ import json
 import re
 import shutil
 import socket
+import struct
 import subprocess
 import sys
 import time
@@ -65,6 +66,29 @@ class Machine:
     def entries(self):
         listed = called("mdir", "-b", "-i", self.system(), "::loader/entries")
         return {line.rsplit("/", 1)[1] for line in listed.split()}
+
+    def lengthen_chain(self, file, clusters):
+        """Gives a file free clusters and leaves its size, as a power cut does before the size is written. Whether there
+        is such a file."""
+        listed = called("mshowfat", "-i", self.system(), f"::{file}", okay=(0, 1))
+        if not (chain := re.findall(r"(\d+)>", listed)):
+            return False
+        start = 2048 * 512
+        with open(self.disk, "r+b") as disk:
+            disk.seek(start)
+            boot = disk.read(512)
+            (sector,), (reserved,), (sectors,) = (struct.unpack_from(form, boot, at)
+                                                  for form, at in (("<H", 11), ("<H", 14), ("<I", 36)))
+            disk.seek(start + reserved * sector)
+            table = bytearray(disk.read(sectors * sector))
+            entries = memoryview(table).cast("I")
+            free = [k for k in range(2, len(entries)) if entries[k] == 0][:clusters]
+            for cluster, following in zip([int(chain[-1]), *free], [*free, 0x0fffffff]):
+                entries[cluster] = following
+            for copy in range(boot[16]):
+                disk.seek(start + (reserved + copy * sectors) * sector)
+                disk.write(table)
+        return True
 
     @contextlib.contextmanager
     def data(self):

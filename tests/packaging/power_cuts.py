@@ -5,7 +5,8 @@ of the wall's programs runs. Its two releases are the kernel with a small first 
 read-only disk. It begins with release 1.0, copies 1.1, starts with it, counts it as good, and begins with 1.0 again.
 After each cut it must start with 1.0 or 1.1, find its data as they were, and go on. KEY signs releases.
 
-A cut ends QEMU: what the machine has not brought to its disk is lost, what it has stays in order.
+A cut ends QEMU: what the machine has not brought to its disk is lost, what it has stays in order. The file that was
+coming gets clusters that its size does not know of, as where FAT reached the disk first.
 """
 
 import lzma
@@ -38,7 +39,7 @@ until [ -b /dev/vda2 ] && [ -b /dev/vdb ]; do /busybox sleep 0.1; done
 for folder in proc sys dev; do /busybox mount -o bind /$folder /root/$folder; done
 /busybox mount -t tmpfs none /root/run
 /busybox mount -t tmpfs none /root/tmp
-/busybox mount -t vfat /dev/vda1 /root/boot
+/busybox mount -t vfat -o ro /dev/vda1 /root/boot
 exec /busybox chroot /root /bin/sh -c 'e2fsck -p /dev/vda2; mount /dev/vda2 /mnt && exec sh /mnt/update'
 """
 # Goes on with the update until all run 1.1. What an order is refused for does not matter: it is given again.
@@ -47,6 +48,7 @@ export XDG_STATE_HOME=/mnt/state PATH=/usr/sbin:/usr/bin:/sbin:/bin
 ip link set lo up
 cd /mnt
 sha256sum --quiet -c SHA256SUMS && echo "data are whole"
+/usr/lib/aquarama/image/writable
 echo "runs $(sed -n 's/.*aquarama.release=\\([^ ]*\\).*/\\1/p' /proc/cmdline)"
 aquarama release serve hall.txtpb --depot releases --signed-by show.pub --frames 1 --seconds 120 &
 aquarama release follow --depot tcp://127.0.0.1:7403 --system /boot --machine /mnt/machine --signed-by show.pub &
@@ -231,7 +233,9 @@ def main(image, key, cuts="20"):
                 time.sleep(moment)
                 has_ended = bool(said(machine, "the update has ended"))
                 machine.cut_power()
+                is_longer = machine.lengthen_chain("aquarama/1.1/filesystem.squashfs", 100)
                 print(f"cut {cut + 1}: started with {runs}, {moment:.0f} s later {sorted(machine.entries())}"
+                      f"{', with a chain too long' if is_longer else ''}"
                       f"{', the update had ended' if has_ended else ''}", flush=True)
                 if has_ended:
                     machine.power_on()

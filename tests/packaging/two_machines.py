@@ -7,7 +7,8 @@ first one's right channel. It comes back with it after a power cut.
 
 Then a depot on the first brings releases to both: one that shows the wall, one whose nodes crash, one whose nodes hang,
 and one that draws black. The bad ones are left again by both together. During the first, one of both machines loses its
-power CUTS times (2), at random moments. KEY signs releases.
+power CUTS times (2), at random moments; the file that was coming has then more clusters than its size. KEY signs
+releases.
 
 PICTURES has what the channels show without a display; screens are left in SCREENS as try-*.ppm.
 """
@@ -172,7 +173,9 @@ class Hall:
             time.sleep(random.uniform(1, 120))
             machine = random.choice(self.machines)
             machine.cut_power()
-            print(f"{machine.name} loses its power: {sorted(machine.entries())}", flush=True)
+            is_cut = machine.lengthen_chain(f"aquarama/{version}/filesystem.squashfs", 100)
+            print(f"{machine.name} loses its power: {sorted(machine.entries())}"
+                  f"{', with a chain too long' if is_cut else ''}", flush=True)
             machine.power_on()
         self.await_status("all machines have it")
         print(self.master.tell("aquarama-hall release go hall.txtpb 2>&1").strip(), flush=True)
