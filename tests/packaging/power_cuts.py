@@ -3,7 +3,8 @@
 The machine has the kernel, the boot loader, the FAT of its system partition, the depot and the agent of IMAGE, and none
 of the wall's programs runs. Its two releases are the kernel with a small first system each; the programs are on a
 read-only disk. It begins with release 1.0, copies 1.1, starts with it, counts it as good, and begins with 1.0 again.
-After each cut it must start with 1.0 or 1.1, find its data as they were, and go on. KEY signs releases.
+After each cut it must start with 1.0 or 1.1, find its data as they were, and go on. The first cut comes while a file
+does. KEY signs releases.
 
 A cut ends QEMU: what the machine has not brought to its disk is lost, what it has stays in order. The file that was
 coming gets clusters that its size does not know of, as where FAT reached the disk first.
@@ -23,6 +24,8 @@ from emulated import ROOT, Machine, called, partitions, sign_release, wait_until
 
 MOST_SECONDS = 600  # from the power to the end of an update
 SYSTEM_MIB, DATA_MIB = 300, 200
+RELEASE_BYTES = 20_000_000
+COMING = "aquarama/1.1/filesystem.squashfs"
 BOOT = Path("/usr/lib/systemd/boot/efi/systemd-bootx64.efi")
 # What Debian's kernel does not have built in, and this machine needs.
 MODULES = ("virtio_pci", "virtio_blk", "crc32c_generic", "ext4", "nls_cp437", "nls_ascii", "vfat", "squashfs")
@@ -159,7 +162,7 @@ class Update:
         folder.mkdir()
         for file in ("vmlinuz", "initrd.img"):
             shutil.copy(self.folder / file, folder)
-        (folder / "filesystem.squashfs").write_bytes(random.randbytes(20_000_000))
+        (folder / "filesystem.squashfs").write_bytes(random.randbytes(RELEASE_BYTES))
         sign_release(folder, release, self.key, serial)
 
     def make_disk(self):
@@ -210,6 +213,18 @@ def await_start(machine):
     return began[0]
 
 
+def await_part(machine):
+    """Until a part of the file has reached the disk."""
+    part, until = machine.folder / "part", time.monotonic() + MOST_SECONDS
+    while True:
+        called("mcopy", "-n", "-i", machine.system(), f"::{COMING}", part, okay=(0, 1))
+        size = part.stat().st_size if part.exists() else 0
+        assert size < RELEASE_BYTES and time.monotonic() < until, f"{size} bytes of {COMING} have come"
+        if size > 0:
+            return
+        time.sleep(0.1)
+
+
 def await_end(machine):
     wait_until(lambda: said(machine, "the update has ended"), MOST_SECONDS, "the update ends")
 
@@ -229,12 +244,14 @@ def main(image, key, cuts="20"):
             update.begin(machine)
             for cut in range(int(cuts)):
                 runs = await_start(machine)
-                moment = random.uniform(0, whole)
+                moment = random.uniform(0, whole) if cut > 0 else 0
                 time.sleep(moment)
+                if cut == 0:
+                    await_part(machine)
                 has_ended = bool(said(machine, "the update has ended"))
                 machine.cut_power()
-                is_longer = machine.lengthen_chain("aquarama/1.1/filesystem.squashfs", 100)
-                print(f"cut {cut + 1}: started with {runs}, {moment:.0f} s later {sorted(machine.entries())}"
+                is_longer = machine.lengthen_chain(COMING, 100)
+                print(f"cut {cut + 1}: started with {runs}, {f'{moment:.0f} s' if cut else 'a part'} later {sorted(machine.entries())}"
                       f"{', with a chain too long' if is_longer else ''}"
                       f"{', the update had ended' if has_ended else ''}", flush=True)
                 if has_ended:
