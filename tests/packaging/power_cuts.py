@@ -251,7 +251,8 @@ def main(image, key, cuts="20"):
                 has_ended = bool(said(machine, "the update has ended"))
                 machine.cut_power()
                 is_longer = machine.lengthen_chain(COMING, 100)
-                print(f"cut {cut + 1}: started with {runs}, {f'{moment:.0f} s' if cut else 'a part'} later {sorted(machine.entries())}"
+                print(f"cut {cut + 1}: started with {runs}, {f'{moment:.0f} s' if cut else 'a part'} later "
+                      f"{sorted(machine.entries())}"
                       f"{', with a chain too long' if is_longer else ''}"
                       f"{', the update had ended' if has_ended else ''}", flush=True)
                 if has_ended:
