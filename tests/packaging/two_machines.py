@@ -173,9 +173,9 @@ class Hall:
             time.sleep(random.uniform(1, 120))
             machine = random.choice(self.machines)
             machine.cut_power()
-            is_cut = machine.lengthen_chain(f"aquarama/{version}/filesystem.squashfs", 100)
+            is_longer = machine.lengthen_chain(f"aquarama/{version}/filesystem.squashfs", 100)
             print(f"{machine.name} loses its power: {sorted(machine.entries())}"
-                  f"{', with a chain too long' if is_cut else ''}", flush=True)
+                  f"{', with a chain too long' if is_longer else ''}", flush=True)
             machine.power_on()
         self.await_status("all machines have it")
         print(self.master.tell("aquarama-hall release go hall.txtpb 2>&1").strip(), flush=True)
